@@ -1,6 +1,8 @@
 #include "physics/body/BodyEvents.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "engine/world/EventCollision.h"
 #include "engine/world/EventDispatch.h"
@@ -67,6 +69,22 @@ std::uint8_t missedBefore(const std::vector<BodyContact>& contacts, std::size_t 
   return contacts[end].missed;
 }
 
+// Makes the times of each pair's changes ascend in their order, so that sorting by time keeps it: a block's
+// Object may end one contact of a body and begin another one at an earlier time of the tick.
+void ascendInPairs(std::vector<BodyContact>& contacts) {
+  std::vector<std::size_t> sorted(contacts.size());
+  std::iota(sorted.begin(), sorted.end(), std::size_t{0});
+  const auto pairOf = [&](std::size_t i) {
+    return std::pair(contacts[i].first_order, contacts[i].second_order);
+  };
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](std::size_t a, std::size_t b) { return pairOf(a) < pairOf(b); });
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    if (pairOf(sorted[i]) == pairOf(sorted[i - 1]))
+      contacts[sorted[i]].time = std::max(contacts[sorted[i]].time, contacts[sorted[i - 1]].time);
+  }
+}
+
 }  // namespace
 
 bool sendContactEvents(World& world, std::vector<BodyContact>& contacts) {
@@ -75,8 +93,10 @@ bool sendContactEvents(World& world, std::vector<BodyContact>& contacts) {
     if (a.first_order != b.first_order) return a.first_order < b.first_order;
     return a.second_order < b.second_order;
   };
-  if (!std::is_sorted(contacts.begin(), contacts.end(), isEarlier))
+  if (!std::is_sorted(contacts.begin(), contacts.end(), isEarlier)) {
+    ascendInPairs(contacts);
     std::stable_sort(contacts.begin(), contacts.end(), isEarlier);
+  }
   bool has_missed = false;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     BodyContact& contact = contacts[i];

@@ -4,8 +4,10 @@
 // from the lists, so that indices stay valid: elements that were removed are marked as absent.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "physics/body/PhysicsManager.h"
@@ -20,6 +22,21 @@ using naiad::physics::length;
 using naiad::physics::Vec2;
 
 inline constexpr int kNothing = -1;  ///< index of no body; in joints the world itself
+
+/// Returns the number of an obstacle among bodies, which have their index; and from a number the index.
+constexpr int obstacleNumber(int index) {
+  return -2 - index;
+}
+
+template <class List>
+auto& at(List& list, int index) {
+  return list[static_cast<std::size_t>(index)];
+}
+/// True if an element of the list that is present has a property.
+template <class List, class Is>
+bool any(const List& list, Is is) {
+  return std::any_of(list.begin(), list.end(), [&](const auto& its) { return its.present && is(its); });
+}
 
 /// One shape of a body.
 struct Part {
@@ -39,38 +56,25 @@ struct FieldData {
   double steepness = 1;  ///< TANH only, per cell
 };
 
+/// A body. As an obstacle, a plain Object: it has one box, place, solidness, group and row, and is kinematic.
 struct BodyData {
   bool present = true;
   int group = 0;
   int row = kNothing;       ///< tiles with equal numbers are one surface
   std::vector<Part> parts;  ///< empty: the Object's box of one cell
-  double mass = 1;
-  double restitution = 0;
-  double friction = 0.5;
-  bool turning = false;
-  bool kinematic = false;
+  double mass = 1, restitution = 0, friction = .5;
+  bool turning = false, kinematic = false, contact_ends = false;
   df::Solidness solidness = df::HARD;
-  bool contact_ends = false;
-  Vec2 place, velocity;
-  double angle = 0;
-  double spin = 0;
-  double gravity_scale = 1;
-  double linear_drag = 0, quadratic_drag = 0;
-  Vec2 anchor;  ///< end of its spring
+  Vec2 place{}, velocity{};
+  double angle = 0, spin = 0;
+  double gravity_scale = 1, linear_drag = 0, quadratic_drag = 0;
+  Vec2 anchor{};  ///< end of its spring
   double stiffness = 0, damping = 0;
   int field = kNothing;
-  Vec2 field_origin;
+  Vec2 field_origin{};
 
   bool isDynamic() const { return present && !kinematic; }
-};
-
-/// An Object that is not a body.
-struct ObstacleData {
-  bool present = true;
-  int group = 0;
-  int row = kNothing;
-  Vec2 centre, half;
-  df::Solidness solidness = df::HARD;
+  Vec2 half() const { return .5 * parts[0].size; }
 };
 
 struct JointData {
@@ -84,59 +88,38 @@ struct JointData {
   double second = 0;       ///< damping, strength, upper limit; stiffness of a mouse joint, 0: the mass
   double length = 0;       ///< 0: the distance of the points at the start
   double break_force = 0;  ///< 0: never
-  bool has_target = false;
-  Vec2 target;  ///< mouse joint's target
+  Vec2 target;             ///< mouse joint's
+
+  double restLength() const { return length > 0 ? length : naiad::physics::length(point_b - point_a); }
 };
+
+enum class TargetKind { BODY, OBSTACLE, JOINT, WORLD };
+
+/// A setter that can be called during a scene, or a deletion.
+struct Setter {
+  std::string_view name;
+  TargetKind target;
+  bool displaces;                ///< bodies may overlap and joints may be open after it
+  std::vector<double> x{}, y{};  ///< values to draw from, or with is_range between; empty: a vector's
+  bool is_range = false;
+};
+/// Returns all setters. LiveScene.cpp has their calls.
+const std::vector<Setter>& setters();
+/// Returns the setter of this name, which must exist.
+const Setter& setterNamed(std::string_view name);
 
 /// One call of a setter, or a deletion, during the scene.
 struct Action {
-  enum class Kind {
-    MASS,
-    RESTITUTION,
-    FRICTION,
-    TURNING,
-    KINEMATIC,
-    SOLIDNESS,
-    VELOCITY,
-    SPIN,
-    POSITION,
-    ANGLE,
-    GRAVITY_SCALE,
-    DRAG,
-    SPRING,
-    CIRCLE,
-    BOX,
-    IMPULSE,
-    FORCE,
-    MARK_BODY,
-    DELETE_BODY,
-    DELETE_OBSTACLE,
-    MOVE_OBSTACLE,
-    OBSTACLE_SOLIDNESS,
-    REMOVE_JOINT,
-    JOINT_LENGTH,
-    JOINT_STIFFNESS,
-    JOINT_SPEED,
-    JOINT_STRENGTH,
-    JOINT_LIMITS,
-    JOINT_TARGET,
-    GRAVITY,
-    OBSTACLE_FRICTION,
-    OBSTACLE_RESTITUTION,
-    LEVEL,
-    SLEEPING,
-  };
-  static constexpr int kKinds = static_cast<int>(Kind::SLEEPING) + 1;
   enum class When { TICK, BEGIN, END };
-
   bool present = true;
-  When when =
-      When::TICK;  ///< TICK: before the tick. Others: in the first such event of the receiver from then on
-  int tick = 0;
-  int receiver = kNothing;
-  Kind kind = Kind::FRICTION;
+  /// TICK: before the tick. Others: in the first such event of the receiver from then on.
+  When when = When::TICK;
+  int tick = 0, receiver = kNothing;
+  const Setter* p_setter = nullptr;
   int target = kNothing;  ///< index of a body, obstacle or joint
   double x = 0, y = 0;
+
+  bool is(std::string_view name) const { return p_setter == &setterNamed(name); }
 };
 
 /// A rectangle that the centres of dynamic bodies must not leave, or a wall that they must not cross.
@@ -154,29 +137,18 @@ struct SceneData {
   df::Accuracy level = df::ACCURACY_DEFAULT;
   bool sleeping = true;
   Vec2 gravity = {0, 0.01};
-  double obstacle_friction = 0.5;
-  double obstacle_restitution = 0;
+  double obstacle_friction = 0.5, obstacle_restitution = 0;
   int ticks = 60;
   bool later_groups_first = false;  ///< groups are made in descending order
   std::vector<FieldData> fields;
-  std::vector<BodyData> bodies;
-  std::vector<ObstacleData> obstacles;
+  std::vector<BodyData> bodies, obstacles;
   std::vector<JointData> joints;
   std::vector<Action> actions;
   std::vector<Boundary> boundaries;
 
-  /// Returns the group of an action: that of its target, or kNothing if it acts on the whole world.
-  int groupOf(const Action& action) const;
-  int groupOf(const JointData& joint) const {
-    return bodies[static_cast<std::size_t>(joint.a != kNothing ? joint.a : joint.b)].group;
-  }
+  bool isFast() const { return level == df::ACCURACY_FAST; }
+  int groupOf(const JointData& joint) const { return at(bodies, std::max(joint.a, joint.b)).group; }
 };
-
-/// List that an action's `target` is an index of.
-enum class TargetKind { BODY, OBSTACLE, JOINT, WORLD };
-TargetKind targetOf(Action::Kind kind);
-/// True if the action changes places or shapes, so that bodies may overlap and joints may be open after it.
-bool displaces(Action::Kind kind);
 
 /// Draws the scene of this seed. A seed gives equal scenes on every machine.
 SceneData drawScene(std::uint64_t seed);

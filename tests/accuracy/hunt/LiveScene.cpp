@@ -1,4 +1,3 @@
-// Builds the world of a LiveScene, and carries out its actions.
 #include "LiveScene.h"
 
 #include "engine/managers/WorldManager.h"
@@ -12,213 +11,246 @@ namespace {
 
 using df::Vector;
 
-// Calls a function and writes the call. `target` is an expression that ends with . or ->, `before` its text.
-#define CALL(before, target, function, ...) \
-  (m_script.call(before, #function, __VA_ARGS__), target function(__VA_ARGS__))
+constexpr const char* kBegin = R"(#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <vector>
 
-std::string element(const char* list, std::size_t index) {
+#include "Body.h"
+#include "EventContactEnd.h"
+#include "Field.h"
+#include "PhysicsManager.h"
+#include "WorldManager.h"
+
+using namespace df;
+
+int tick = 0;
+std::map<std::pair<int, int>, std::function<void()>> handlers;  // by body and number of its event
+struct Traced;
+std::map<int, Traced*> traced;
+
+struct Traced : Body {
+  explicit Traced(int its_index) : index(its_index) { traced[index] = this; }
+  ~Traced() override { traced.erase(index); }
+  int eventHandler(const Event* p_event) override {
+    const bool begins = p_event->getType() == COLLISION_EVENT;
+    if (!begins && p_event->getType() != CONTACT_END_EVENT) return 0;
+    std::printf("tick %d: body %d: a contact %s\n", tick, index, begins ? "begins" : "ends");
+    if (const auto found = handlers.find({index, events++}); found != handlers.end()) found->second();
+    return 1;
+  }
+  int index, events = 0;
+};
+
+void update(int ticks) {
+  while (ticks-- > 0) {
+    WM.update();
+    ++tick;
+    for (const auto& [index, p_body] : traced) {
+      const Vector place = p_body->getPosition(), velocity = p_body->getVelocity();
+      std::printf("%d %d: %.9g %.9g  %.9g %.9g  %.9g %.9g\n", tick, index, place.x(), place.y(),
+                  velocity.x(), velocity.y(), p_body->getAngle(), p_body->getSpin());
+    }
+  }
+}
+
+)";
+
+// Calls a function and writes the call. `target` is an expression that ends with . or ->.
+#define CALL(target, function, ...) \
+  (m_script.call(m_on, #function, __VA_ARGS__), target function(__VA_ARGS__))
+
+std::string element(const char* list, int index) {
   return list + ("[" + std::to_string(index)) + "]";
 }
 
-df::Solidness chosenSolidness(const Action& action) {
+df::Solidness solidnessIn(const Action& action) {
   return static_cast<df::Solidness>(static_cast<int>(action.x));
+}
+
+class HuntField : public df::Field {
+ public:
+  explicit HuntField(const FieldData& data) : m_data(data) {}
+  Vector accelerationAt(Vector d, Vector v, double /*time*/) const override {
+    const double k = m_data.strength, c = m_data.steepness;
+    if (m_data.kind == FieldData::Kind::LINEAR) return {-k * d.x(), -k * d.y()};
+    if (m_data.kind == FieldData::Kind::MAGNET) return {-k * v.y(), k * v.x()};
+    return {-k * df::math::tanh(c * d.x()), -k * df::math::tanh(c * d.y())};
+  }
+
+ private:
+  FieldData m_data;
+};
+
+std::string codeOf(const FieldData& field, int index) {
+  const std::string k = Script::codeOf(field.strength), c = Script::codeOf(field.steepness);
+  std::string result = "-" + k + " * d.x(), -" + k + " * d.y()";
+  if (field.kind == FieldData::Kind::MAGNET) result = "-" + k + " * v.y(), " + k + " * v.x()";
+  if (field.kind == FieldData::Kind::TANH)
+    result = "-" + k + " * std::tanh(" + c + " * d.x()), -" + k + " * std::tanh(" + c + " * d.y())";
+  return "struct : Field {\n  Vector accelerationAt([[maybe_unused]] Vector d, [[maybe_unused]] Vector v, "
+         "double) const override {\n    return {" +
+         result + "};\n  }\n} field" + std::to_string(index) + ";\n\n";
 }
 
 }  // namespace
 
-Vector HuntField::accelerationAt(Vector d, Vector v, double /*time*/) const {
-  const double k = m_data.strength, c = m_data.steepness;
-  if (m_data.kind == FieldData::Kind::LINEAR) return {-k * d.x(), -k * d.y()};
-  if (m_data.kind == FieldData::Kind::MAGNET) return {-k * v.y(), k * v.x()};
-  return {-k * df::math::tanh(c * d.x()), -k * df::math::tanh(c * d.y())};
-}
-
-HuntBody::~HuntBody() {
-  m_scene.forgetBody(m_index);
-}
-
-HuntObstacle::~HuntObstacle() {
-  m_scene.forgetObstacle(m_index);
-}
-
 int HuntBody::eventHandler(const df::Event* p_event) {
-  if (p_event->getType() == df::COLLISION_EVENT) {
-    const auto* p_begin = static_cast<const df::EventCollision*>(p_event);
-    m_scene.onContact(m_index, true, p_begin->getObject1(), p_begin->getObject2());
-  } else if (p_event->getType() == df::CONTACT_END_EVENT) {
-    const auto* p_end = static_cast<const df::EventContactEnd*>(p_event);
-    m_scene.onContact(m_index, false, p_end->getObject1(), p_end->getObject2());
-  }
+  m_scene.onContact(m_index, p_event);
   return 1;
 }
 
-LiveScene::LiveScene(const SceneData& scene, Detail detail, const std::vector<BodyState>* p_start,
-                     bool writes)
-    : m_detail(detail),
-      m_now(scene),
+LiveScene::LiveScene(const SceneData& scene, const std::vector<BodyState>* p_start, bool writes)
+    : m_now(scene),
       m_script(writes),
       m_bodies(scene.bodies.size()),
       m_obstacles(scene.obstacles.size()),
       m_joints(scene.joints.size()),
-      m_event_counts(scene.bodies.size()),
-      m_travels(scene.bodies.size()),
-      m_body_solids(scene.bodies.size()),
-      m_obstacle_solids(scene.obstacles.size()) {
+      m_on("PM."),
+      m_event_counts(scene.bodies.size()) {
   m_world.log().setSink([](const std::string&) {});
-  CALL("PM.", PM., setAspect, scene.aspect);
-  CALL("PM.", PM., setGravity, cells(scene.gravity));
-  CALL("PM.", PM., setObstacleFriction, scene.obstacle_friction);
-  CALL("PM.", PM., setObstacleRestitution, scene.obstacle_restitution);
-  CALL("PM.", PM., setAccuracy, scene.level);
-  CALL("PM.", PM., setSleeping, scene.sleeping);
+  CALL(PM., setAspect, scene.aspect);
+  CALL(PM., setGravity, cells(scene.gravity));
+  CALL(PM., setObstacleFriction, scene.obstacle_friction);
+  CALL(PM., setObstacleRestitution, scene.obstacle_restitution);
+  CALL(PM., setAccuracy, scene.level);
+  CALL(PM., setSleeping, scene.sleeping);
   for (const FieldData& field : scene.fields) m_fields.push_back(std::make_unique<HuntField>(field));
-  for (int i = 0; i < 2; ++i) addGroup(scene.later_groups_first ? 1 - i : i);
-  if (p_start != nullptr) setStates(*p_start);
+  for (const int group : {int{scene.later_groups_first}, int{!scene.later_groups_first}}) {
+    const auto addAll = [&](const auto& list, auto groupOf, void (LiveScene::*add)(int)) {
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        if (list[i].present && groupOf(list[i]) == group) (this->*add)(static_cast<int>(i));
+      }
+    };
+    const auto itsGroup = [](const BodyData& its) { return its.group; };
+    addAll(m_now.obstacles, itsGroup, &LiveScene::addObstacle);
+    addAll(m_now.bodies, itsGroup, &LiveScene::addBody);
+    addAll(
+        m_now.joints, [&](const auto& its) { return m_now.groupOf(its); }, &LiveScene::addJoint);
+  }
+  for (int i = 0; p_start != nullptr && i < static_cast<int>(p_start->size()); ++i) {
+    HuntBody* p_body = bodyAt(i);
+    const BodyState& state = at(*p_start, i);
+    if (p_body == nullptr || !state.present) continue;
+    p_body->setPosition(cells(state.place));
+    p_body->setVelocity(cells(state.velocity));
+    p_body->setAngle(state.angle);
+    p_body->setSpin(state.spin);
+  }
 }
 
-void LiveScene::addGroup(int group) {
-  for (std::size_t i = 0; i < m_now.obstacles.size(); ++i) {
-    if (m_now.obstacles[i].present && m_now.obstacles[i].group == group) addObstacle(i);
-  }
-  for (std::size_t i = 0; i < m_now.bodies.size(); ++i) {
-    if (m_now.bodies[i].present && m_now.bodies[i].group == group) addBody(i);
-  }
-  for (std::size_t i = 0; i < m_now.joints.size(); ++i) {
-    if (m_now.joints[i].present && m_now.groupOf(m_now.joints[i]) == group) addJoint(i);
-  }
-}
-
-void LiveScene::addBody(std::size_t index) {
-  const BodyData& data = m_now.bodies[index];
-  auto* p_body = new HuntBody(*this, static_cast<int>(index));
-  m_bodies[index] = p_body;
-  m_numbers[p_body] = static_cast<int>(index);
-  const std::string name = element("bodies", index), on = name + "->";
-  m_script.add(name + " = new TracedBody(" + std::to_string(index) + ");");
-  for (std::size_t i = 0; i < data.parts.size(); ++i) addPart(*p_body, on, data.parts[i], i == 0);
-  CALL(on, p_body->, setPosition, cells(data.place));
-  CALL(on, p_body->, setVelocity, cells(data.velocity));
-  CALL(on, p_body->, setAngle, data.angle);
-  CALL(on, p_body->, setSpin, data.spin);
-  CALL(on, p_body->, setMass, data.mass);
-  CALL(on, p_body->, setRestitution, data.restitution);
-  CALL(on, p_body->, setFriction, data.friction);
-  CALL(on, p_body->, setTurning, data.turning);
-  if (data.kinematic) CALL(on, p_body->, setKinematic, true);
-  if (data.solidness != df::HARD) CALL(on, p_body->, setSolidness, data.solidness);
-  if (data.contact_ends) CALL(on, p_body->, setContactEnds, true);
-  if (data.gravity_scale != 1) CALL(on, p_body->, setGravityScale, data.gravity_scale);
+void LiveScene::addBody(int index) {
+  const BodyData& data = at(m_now.bodies, index);
+  auto* p_body = new HuntBody(*this, index);
+  at(m_bodies, index) = p_body->key();
+  m_numbers[p_body] = index;
+  m_script.add(p_body->code() + " = new Traced(" + std::to_string(index) + ");");
+  m_on = p_body->code() + "->";
+  for (std::size_t i = 0; i < data.parts.size(); ++i) addPart(*p_body, data.parts[i], i == 0);
+  CALL(p_body->, setPosition, cells(data.place));
+  CALL(p_body->, setVelocity, cells(data.velocity));
+  CALL(p_body->, setAngle, data.angle);
+  CALL(p_body->, setSpin, data.spin);
+  CALL(p_body->, setMass, data.mass);
+  CALL(p_body->, setRestitution, data.restitution);
+  CALL(p_body->, setFriction, data.friction);
+  CALL(p_body->, setTurning, data.turning);
+  if (data.kinematic) CALL(p_body->, setKinematic, true);
+  if (data.solidness != df::HARD) CALL(p_body->, setSolidness, data.solidness);
+  if (data.contact_ends) CALL(p_body->, setContactEnds, true);
+  if (data.gravity_scale != 1) CALL(p_body->, setGravityScale, data.gravity_scale);
   if (data.linear_drag != 0 || data.quadratic_drag != 0)
-    CALL(on, p_body->, setDrag, data.linear_drag, data.quadratic_drag);
+    CALL(p_body->, setDrag, data.linear_drag, data.quadratic_drag);
   if (data.stiffness != 0 || data.damping != 0)
-    CALL(on, p_body->, setSpring, cells(data.anchor), data.stiffness, data.damping);
+    CALL(p_body->, setSpring, cells(data.anchor), data.stiffness, data.damping);
   if (data.field == kNothing) return;
-  const auto field = static_cast<std::size_t>(data.field);
-  m_script.call(on, "setField", Code{"&field" + std::to_string(field)}, cells(data.field_origin));
-  p_body->setField(m_fields[field].get(), cells(data.field_origin));
+  m_script.call(m_on, "setField", Code{"&field" + std::to_string(data.field)}, cells(data.field_origin));
+  p_body->setField(at(m_fields, data.field).get(), cells(data.field_origin));
 }
 
-void LiveScene::addPart(HuntBody& body, const std::string& on, const Part& part, bool is_first) {
+void LiveScene::addPart(HuntBody& body, const Part& part, bool is_first) {
   const Vector size = cells(part.size), centre = cells(part.centre);
   std::vector<Vector> corners;
   for (const Vec2 corner : part.corners) corners.push_back(cells(corner));
-  if (part.kind == Part::Kind::CIRCLE && is_first) CALL(on, body., setCircle, part.size.x);
-  if (part.kind == Part::Kind::CIRCLE && !is_first) CALL(on, body., addCircle, part.size.x, centre);
-  if (part.kind == Part::Kind::BOX && is_first) CALL(on, body., setBoxShape, size.x(), size.y());
+  if (part.kind == Part::Kind::POLYGON) CALL(body., setPolygon, corners);
+  if (part.kind == Part::Kind::CIRCLE && is_first) CALL(body., setCircle, part.size.x);
+  if (part.kind == Part::Kind::CIRCLE && !is_first) CALL(body., addCircle, part.size.x, centre);
+  if (part.kind == Part::Kind::BOX && is_first) CALL(body., setBoxShape, size.x(), size.y());
   if (part.kind == Part::Kind::BOX && !is_first)
-    CALL(on, body., addBoxShape, size.x(), size.y(), centre, part.angle);
-  if (part.kind == Part::Kind::POLYGON && is_first) CALL(on, body., setPolygon, corners);
-  if (part.kind == Part::Kind::POLYGON && !is_first) CALL(on, body., addPolygon, corners);
+    CALL(body., addBoxShape, size.x(), size.y(), centre, part.angle);
 }
 
-void LiveScene::addObstacle(std::size_t index) {
-  const ObstacleData& data = m_now.obstacles[index];
-  auto* p_obstacle = new HuntObstacle(*this, static_cast<int>(index));
-  m_obstacles[index] = p_obstacle;
-  m_numbers[p_obstacle] = obstacleNumber(static_cast<int>(index));
-  const std::string name = element("obstacles", index), on = name + "->";
-  const Vector half = cells(data.half);
-  m_script.add(name + " = new df::Object;");
-  CALL(on, p_obstacle->, setBox, df::Box(Vector(-half.x(), -half.y()), 2 * half.x(), 2 * half.y()));
-  CALL(on, p_obstacle->, setPosition, cells(data.centre));
-  if (data.solidness != df::HARD) CALL(on, p_obstacle->, setSolidness, data.solidness);
+void LiveScene::addObstacle(int index) {
+  const BodyData& data = at(m_now.obstacles, index);
+  auto* p_obstacle = new df::Object;
+  at(m_obstacles, index) = p_obstacle->key();
+  m_numbers[p_obstacle] = obstacleNumber(index);
+  m_script.add(element("obstacles", index) + " = new Object;");
+  m_on = element("obstacles", index) + "->";
+  const Vector half = cells(data.half());
+  CALL(p_obstacle->, setBox, df::Box(Vector(-half.x(), -half.y()), 2 * half.x(), 2 * half.y()));
+  CALL(p_obstacle->, setPosition, cells(data.place));
+  if (data.solidness != df::HARD) CALL(p_obstacle->, setSolidness, data.solidness);
 }
 
-void LiveScene::addJoint(std::size_t index) {
-  JointData& data = m_now.joints[index];
+void LiveScene::addJoint(int index) {
+  JointData& data = at(m_now.joints, index);
   HuntBody *p_a = bodyAt(data.a), *p_b = bodyAt(data.b);
   if ((p_a == nullptr && data.a != kNothing) || (p_b == nullptr && data.b != kNothing)) return;
   const Vector a = cells(data.point_a), b = cells(data.point_b);
-  const std::string name = element("joints", index), on = name + ".", add = name + " = PM.";
-  df::Joint& joint = m_joints[index];
+  df::Joint& joint = at(m_joints, index);
   using Kind = JointData::Kind;
-  if (data.kind == Kind::DISTANCE) joint = CALL(add, PM., addDistance, p_a, p_b, a, b);
-  if (data.kind == Kind::ROPE) joint = CALL(add, PM., addRope, p_a, p_b, a, b);
-  if (data.kind == Kind::HINGE) joint = CALL(add, PM., addHinge, p_a, p_b, a);
-  if (data.kind == Kind::WELD) joint = CALL(add, PM., addWeld, p_a, p_b, a);
-  if (data.kind == Kind::SLIDER) joint = CALL(add, PM., addSlider, p_a, p_b, a, cells(data.axis));
-  if (data.kind == Kind::SPRING) joint = CALL(add, PM., addSpring, p_a, p_b, a, b, data.first, data.second);
-  if (data.kind == Kind::MOTOR) joint = CALL(add, PM., addMotor, p_a, p_b, data.first, data.second);
-  if (data.kind == Kind::LIMIT) joint = CALL(add, PM., addAngleLimit, p_a, p_b, data.first, data.second);
+  m_on = element("joints", index) + " = PM.";
+  if (data.kind == Kind::DISTANCE) joint = CALL(PM., addDistance, p_a, p_b, a, b);
+  if (data.kind == Kind::ROPE) joint = CALL(PM., addRope, p_a, p_b, a, b);
+  if (data.kind == Kind::HINGE) joint = CALL(PM., addHinge, p_a, p_b, a);
+  if (data.kind == Kind::WELD) joint = CALL(PM., addWeld, p_a, p_b, a);
+  if (data.kind == Kind::SLIDER) joint = CALL(PM., addSlider, p_a, p_b, a, cells(data.axis));
+  if (data.kind == Kind::SPRING) joint = CALL(PM., addSpring, p_a, p_b, a, b, data.first, data.second);
+  if (data.kind == Kind::MOTOR) joint = CALL(PM., addMotor, p_a, p_b, data.first, data.second);
+  if (data.kind == Kind::LIMIT) joint = CALL(PM., addAngleLimit, p_a, p_b, data.first, data.second);
+  if (data.kind == Kind::MOUSE) joint = CALL(PM., addMouse, p_b, b, data.first);
+  m_on = element("joints", index) + ".";
   if (data.kind == Kind::MOUSE) {
-    joint = CALL(add, PM., addMouse, p_b, b, data.first);
     if (data.second == 0) data.second = p_b->getMass();
-    CALL(on, joint., setStiffness, data.second, 2 * data.second);
-    if (data.has_target) CALL(on, joint., setTarget, cells(data.target));
+    CALL(joint., setStiffness, data.second, 2 * data.second);
+    CALL(joint., setTarget, cells(data.target));
   }
-  if (data.length > 0) CALL(on, joint., setLength, data.length);
-  if (data.break_force > 0) CALL(on, joint., setBreakForce, data.break_force);
+  if (data.length > 0) CALL(joint., setLength, data.length);
+  if (data.break_force > 0) CALL(joint., setBreakForce, data.break_force);
 }
 
-void LiveScene::setStates(const std::vector<BodyState>& states) {
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    HuntBody* p_body = m_bodies[i];
-    if (p_body == nullptr || !states[i].present) continue;
-    const std::string on = element("bodies", i) + "->";
-    CALL(on, p_body->, setPosition, cells(states[i].place));
-    CALL(on, p_body->, setVelocity, cells(states[i].velocity));
-    CALL(on, p_body->, setAngle, states[i].angle);
-    CALL(on, p_body->, setSpin, states[i].spin);
-  }
-}
-
-Recording LiveScene::record() {
-  recordTick();
-  for (m_tick = 1; m_tick <= m_now.ticks; ++m_tick) {
-    m_acted = m_displaces = false;
-    actAt(m_tick);
-    m_script.update();
-    m_world.update();
-    recordTick();
-  }
-  m_recording.frozen = PM.getQuarantineCount();
-  m_recording.limited = PM.getLimitCount();
-  for (std::size_t i = 0; i < m_joints.size(); ++i) {
-    if (!m_joints[i].exists()) m_now.joints[i].present = false;  // it broke, or lost a body
-  }
-  m_recording.end = m_now;
-  return std::move(m_recording);
-}
-
-void LiveScene::actAt(int tick) {
+void LiveScene::update() {
+  ++m_tick;
+  m_acted = m_displaces = false;
   for (Action& action : m_now.actions) {
-    if (action.present && action.when == Action::When::TICK && action.tick == tick) act(action);
+    if (action.present && action.when == Action::When::TICK && action.tick == m_tick) act(action);
   }
+  m_script.update();
+  m_world.update();
 }
 
-void LiveScene::onContact(int receiver, bool begins, const df::Object* p_first, const df::Object* p_second) {
-  const auto numberOf = [this](const df::Object* p_object) {
-    const auto found = m_numbers.find(p_object);
-    return found == m_numbers.end() ? kNothing : found->second;
+void LiveScene::onContact(int receiver, const df::Event* p_event) {
+  const bool begins = p_event->getType() == df::COLLISION_EVENT;
+  if (!begins && p_event->getType() != df::CONTACT_END_EVENT) return;
+  const auto add = [&](const auto& event) {
+    const auto numberOf = [this](const df::Object* p_object) {
+      const auto found = m_numbers.find(p_object);
+      return found == m_numbers.end() ? kNothing : found->second;
+    };
+    m_events.push_back(
+        {m_tick, begins, receiver, numberOf(event.getObject1()), numberOf(event.getObject2())});
   };
-  m_recording.events.push_back({m_tick, begins, receiver, numberOf(p_first), numberOf(p_second), -1});
-  const int count = m_event_counts[static_cast<std::size_t>(receiver)]++;
+  if (begins) add(*static_cast<const df::EventCollision*>(p_event));
+  if (!begins) add(*static_cast<const df::EventContactEnd*>(p_event));
+  const int count = at(m_event_counts, receiver)++;
   for (Action& action : m_now.actions) {
     const auto when = begins ? Action::When::BEGIN : Action::When::END;
     if (!action.present || action.when != when || action.receiver != receiver || action.tick > m_tick)
       continue;
-    if (action.kind == Action::Kind::DELETE_BODY && action.target == receiver)
-      action.kind = Action::Kind::MARK_BODY;  // a handler of the body itself is running
+    if (action.is("delete") && action.target == receiver)
+      action.p_setter = &setterNamed("mark");  // a handler of the body itself is running
     m_script.beginHandler(receiver, count);
     act(action);
     m_script.endHandler();
@@ -228,148 +260,127 @@ void LiveScene::onContact(int receiver, bool begins, const df::Object* p_first, 
 
 void LiveScene::act(Action& action) {
   action.present = false;
-  const auto target = static_cast<std::size_t>(action.target);
-  switch (targetOf(action.kind)) {
+  const int target = action.target;
+  switch (action.p_setter->target) {
     case TargetKind::BODY:
-      if (m_bodies[target] == nullptr) return;
-      actOnBody(action, *m_bodies[target], m_now.bodies[target]);
+      if (bodyAt(target) == nullptr) return;
+      m_on = element("bodies", target) + "->";
+      actOnBody(action, *bodyAt(target), at(m_now.bodies, target));
       break;
     case TargetKind::OBSTACLE:
-      if (m_obstacles[target] == nullptr) return;
-      actOnObstacle(action, *m_obstacles[target], m_now.obstacles[target]);
+      if (obstacleAt(target) == nullptr) return;
+      m_on = element("obstacles", target) + "->";
+      actOnObstacle(action, *obstacleAt(target), at(m_now.obstacles, target));
       break;
     case TargetKind::JOINT:
-      if (!m_joints[target].exists()) return;
-      actOnJoint(action, m_joints[target], m_now.joints[target]);
+      if (!at(m_joints, target).exists()) return;
+      m_on = element("joints", target) + ".";
+      actOnJoint(action, at(m_joints, target), at(m_now.joints, target));
       break;
     case TargetKind::WORLD:
+      m_on = "PM.";
       actOnWorld(action);
       break;
   }
   m_acted = true;
-  m_displaces = m_displaces || displaces(action.kind);
+  m_displaces = m_displaces || action.p_setter->displaces;
   m_displaced = m_displaced || m_displaces;
 }
 
 void LiveScene::actOnBody(const Action& action, HuntBody& body, BodyData& data) {
-  using Kind = Action::Kind;
-  const std::string name = element("bodies", static_cast<std::size_t>(action.target)), on = name + "->";
+  const std::string_view name = action.p_setter->name;
   const Vector value = cells({action.x, action.y}), place = body.getPosition();
-  const Kind kind = action.kind;
-  if (kind == Kind::MASS) CALL(on, body., setMass, data.mass = action.x);
-  if (kind == Kind::RESTITUTION) CALL(on, body., setRestitution, data.restitution = action.x);
-  if (kind == Kind::FRICTION) CALL(on, body., setFriction, data.friction = action.x);
-  if (kind == Kind::TURNING) CALL(on, body., setTurning, data.turning = action.x != 0);
-  if (kind == Kind::KINEMATIC) CALL(on, body., setKinematic, data.kinematic = action.x != 0);
-  if (kind == Kind::SOLIDNESS) CALL(on, body., setSolidness, data.solidness = chosenSolidness(action));
-  if (kind == Kind::VELOCITY) CALL(on, body., setVelocity, value);
-  if (kind == Kind::SPIN) CALL(on, body., setSpin, action.x);
-  if (kind == Kind::POSITION) CALL(on, body., setPosition, place + value);
-  if (kind == Kind::ANGLE) CALL(on, body., setAngle, action.x);
-  if (kind == Kind::GRAVITY_SCALE) CALL(on, body., setGravityScale, data.gravity_scale = action.x);
-  if (kind == Kind::DRAG) CALL(on, body., setDrag, data.linear_drag = action.x, data.quadratic_drag = 0);
-  if (kind == Kind::IMPULSE) CALL(on, body., applyImpulse, value);
-  if (kind == Kind::FORCE) CALL(on, body., applyForce, value);
-  if (kind == Kind::SPRING) {
+  const double x = action.x, y = action.y;
+  if (name == "mass") CALL(body., setMass, data.mass = x);
+  if (name == "restitution") CALL(body., setRestitution, data.restitution = x);
+  if (name == "friction") CALL(body., setFriction, data.friction = x);
+  if (name == "turning") CALL(body., setTurning, data.turning = x != 0);
+  if (name == "kinematic") CALL(body., setKinematic, data.kinematic = x != 0);
+  if (name == "solidness") CALL(body., setSolidness, data.solidness = solidnessIn(action));
+  if (name == "velocity") CALL(body., setVelocity, value);
+  if (name == "spin") CALL(body., setSpin, x);
+  if (name == "position") CALL(body., setPosition, place + value);
+  if (name == "angle") CALL(body., setAngle, x);
+  if (name == "gravity scale") CALL(body., setGravityScale, data.gravity_scale = x);
+  if (name == "drag") CALL(body., setDrag, data.linear_drag = x, data.quadratic_drag = 0);
+  if (name == "impulse") CALL(body., applyImpulse, value);
+  if (name == "force") CALL(body., applyForce, value);
+  if (name == "spring") {
     data.anchor = metric(place);
-    CALL(on, body., setSpring, place, data.stiffness = action.x, data.damping = action.y);
+    CALL(body., setSpring, place, data.stiffness = x, data.damping = y);
   }
-  if (kind == Kind::CIRCLE || kind == Kind::BOX) {
-    const auto part = kind == Kind::BOX ? Part::Kind::BOX : Part::Kind::CIRCLE;
-    data.parts = {{.kind = part, .size = {action.x, action.y}}};
-    addPart(body, on, data.parts[0], true);
+  if (name == "circle" || name == "box") {
+    data.parts = {{.kind = name == "box" ? Part::Kind::BOX : Part::Kind::CIRCLE, .size = {x, y}}};
+    addPart(body, data.parts[0], true);
   }
-  if (kind == Kind::MARK_BODY || kind == Kind::DELETE_BODY) data.present = false;
-  if (kind == Kind::MARK_BODY) {
-    m_script.add("WM.markForDelete(" + name + ");");
+  if (name == "mark" || name == "delete") data.present = false;
+  if (name == "mark") {
+    m_script.add("WM.markForDelete(" + body.code() + ");");
     WM.markForDelete(&body);
-  } else if (kind == Kind::DELETE_BODY) {
-    m_script.add("delete " + name + ";");
+  } else if (name == "delete") {
+    m_script.add("delete " + body.code() + ";");
     delete &body;
   }
 }
 
-void LiveScene::actOnObstacle(const Action& action, HuntObstacle& obstacle, ObstacleData& data) {
-  const std::string name = element("obstacles", static_cast<std::size_t>(action.target)), on = name + "->";
-  if (action.kind == Action::Kind::DELETE_OBSTACLE) {
-    data.present = false;
-    m_script.add("delete " + name + ";");
-    delete &obstacle;
-  } else if (action.kind == Action::Kind::MOVE_OBSTACLE) {
-    data.centre += {action.x, action.y};
-    CALL(on, obstacle., setPosition, cells(data.centre));
+void LiveScene::actOnObstacle(const Action& action, df::Object& obstacle, BodyData& data) {
+  if (action.is("move obstacle")) {
+    data.place += {action.x, action.y};
+    CALL(obstacle., setPosition, cells(data.place));
+  } else if (action.is("change obstacle")) {
+    CALL(obstacle., setSolidness, data.solidness = solidnessIn(action));
   } else {
-    CALL(on, obstacle., setSolidness, data.solidness = chosenSolidness(action));
+    data.present = false;
+    m_script.add("delete " + element("obstacles", action.target) + ";");
+    delete &obstacle;
   }
 }
 
 void LiveScene::actOnJoint(const Action& action, df::Joint& joint, JointData& data) {
-  using Kind = Action::Kind;
-  const std::string on = element("joints", static_cast<std::size_t>(action.target)) + ".";
+  const std::string_view name = action.p_setter->name;
   const bool is_mouse = data.kind == JointData::Kind::MOUSE;
   const double x = action.x, y = action.y;
-  if (action.kind == Kind::REMOVE_JOINT) {
+  if (name == "remove joint") {
     data.present = false;
-    m_script.add(on + "remove();");
+    m_script.add(m_on + "remove();");
     joint.remove();
   }
-  if (action.kind == Kind::JOINT_LENGTH && CALL(on, joint., setLength, x) == 0) data.length = x;
-  if (action.kind == Kind::JOINT_STIFFNESS && !is_mouse && CALL(on, joint., setStiffness, x, y) == 0) {
-    data.first = x;
-    data.second = y;
+  if (name == "length" && CALL(joint., setLength, x) == 0) data.length = x;
+  if ((name == "stiffness" && !is_mouse && CALL(joint., setStiffness, x, y) == 0) ||
+      (name == "limits" && CALL(joint., setLimits, y, x) == 0)) {
+    data.first = name == "limits" ? y : x;
+    data.second = name == "limits" ? x : y;
   }
-  if (action.kind == Kind::JOINT_SPEED && CALL(on, joint., setSpeed, x) == 0) data.first = x;
-  if (action.kind == Kind::JOINT_STRENGTH && CALL(on, joint., setStrength, x) == 0)
-    (is_mouse ? data.first : data.second) = x;
-  if (action.kind == Kind::JOINT_LIMITS && CALL(on, joint., setLimits, x, y) == 0) {
-    data.first = x;
-    data.second = y;
-  }
-  if (action.kind == Kind::JOINT_TARGET) {
-    const Vec2 target = data.point_b + Vec2{x, y};
-    if (CALL(on, joint., setTarget, cells(target)) != 0) return;
-    data.has_target = true;
-    data.target = target;
-  }
+  if (name == "speed" && CALL(joint., setSpeed, x) == 0) data.first = x;
+  if (name == "strength" && CALL(joint., setStrength, x) == 0) (is_mouse ? data.first : data.second) = x;
+  const Vec2 target = data.point_b + Vec2{x, y};
+  if (name == "target" && CALL(joint., setTarget, cells(target)) == 0) data.target = target;
 }
 
 void LiveScene::actOnWorld(const Action& action) {
-  using Kind = Action::Kind;
-  if (action.kind == Kind::GRAVITY) m_now.gravity = {action.x, action.y};
-  if (action.kind == Kind::GRAVITY) CALL("PM.", PM., setGravity, cells(m_now.gravity));
-  if (action.kind == Kind::OBSTACLE_FRICTION)
-    CALL("PM.", PM., setObstacleFriction, m_now.obstacle_friction = action.x);
-  if (action.kind == Kind::OBSTACLE_RESTITUTION)
-    CALL("PM.", PM., setObstacleRestitution, m_now.obstacle_restitution = action.x);
-  if (action.kind == Kind::LEVEL) m_now.level = action.x != 0 ? df::ACCURACY_FAST : df::ACCURACY_DEFAULT;
-  if (action.kind == Kind::LEVEL) CALL("PM.", PM., setAccuracy, m_now.level);
-  if (action.kind == Kind::SLEEPING) CALL("PM.", PM., setSleeping, m_now.sleeping = action.x != 0);
+  const std::string_view name = action.p_setter->name;
+  if (name == "gravity") CALL(PM., setGravity, cells(m_now.gravity = {0, action.y}));
+  if (name == "all friction") CALL(PM., setObstacleFriction, m_now.obstacle_friction = action.x);
+  if (name == "all restitution") CALL(PM., setObstacleRestitution, m_now.obstacle_restitution = action.x);
+  const df::Accuracy level = action.x != 0 ? df::ACCURACY_FAST : df::ACCURACY_DEFAULT;
+  if (name == "level") CALL(PM., setAccuracy, m_now.level = level);
+  if (name == "sleeping") CALL(PM., setSleeping, m_now.sleeping = action.x != 0);
 }
 
-std::string LiveScene::program(const std::string& comment) const {
+std::string LiveScene::program(const std::string& comment) {
   std::string fields;
-  for (std::size_t i = 0; i < m_now.fields.size(); ++i) {
-    const FieldData& field = m_now.fields[i];
-    const std::string k = Script::codeOf(field.strength), c = Script::codeOf(field.steepness);
-    std::string result = "-" + k + " * d.x(), -" + k + " * d.y()";
-    if (field.kind == FieldData::Kind::MAGNET) result = "-" + k + " * v.y(), " + k + " * v.x()";
-    if (field.kind == FieldData::Kind::TANH)
-      result = "-" + k + " * std::tanh(" + c + " * d.x()), -" + k + " * std::tanh(" + c + " * d.y())";
-    fields +=
-        "struct : df::Field {\n  Vector accelerationAt([[maybe_unused]] Vector d, [[maybe_unused]] Vector v, "
-        "double) const override {\n    return {" +
-        result + "};\n  }\n} field" + std::to_string(i) + ";\n\n";
-  }
-  return m_script.program(comment, fields, m_bodies.size(), m_obstacles.size(), m_joints.size());
-}
-
-Recording run(const SceneData& scene, Detail detail, const std::vector<BodyState>* p_start) {
-  return LiveScene(scene, detail, p_start, false).record();
+  for (int i = 0; i < static_cast<int>(m_now.fields.size()); ++i) fields += codeOf(at(m_now.fields, i), i);
+  const auto list = [](const char* type, const char* name, std::size_t size) {
+    return std::string("  std::vector<") + type + "> " + name + "(" + std::to_string(size) + ");\n";
+  };
+  return "// " + comment + "\n" + kBegin + fields + "int main() {\n" +
+         list("Traced*", "bodies", m_bodies.size()) + list("Object*", "obstacles", m_obstacles.size()) +
+         list("Joint", "joints", m_joints.size()) + m_script.handlersAndSteps() + "}\n";
 }
 
 std::string programOf(const SceneData& scene, const std::string& comment) {
-  LiveScene live(scene, Detail::STATES, nullptr, true);
-  live.record();
+  LiveScene live(scene, nullptr, true);
+  for (int i = 0; i < scene.ticks; ++i) live.update();
   return live.program(comment);
 }
 

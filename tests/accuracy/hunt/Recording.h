@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "HuntScene.h"
@@ -17,27 +18,27 @@ struct BodyState {
   friend bool operator==(const BodyState&, const BodyState&) = default;
 };
 
-/// Number of an obstacle as partner of a contact; bodies have their index.
-constexpr int obstacleNumber(int index) {
-  return -2 - index;
-}
-
 struct ContactEvent {
   int tick = 0;
   bool begins = true;
   int receiver = kNothing;
   int first = kNothing, second = kNothing;  ///< indices of bodies, or obstacleNumber()
-  double gap = 0;  ///< least gap that the pair can have had in this tick; below 0 if unknown
+  double gap = -1;  ///< least gap that the pair can have had in this tick; below 0 if unknown
 
-  int other() const { return first == receiver ? second : first; }
-  friend bool operator==(const ContactEvent&, const ContactEvent&) = default;
+  int gone = kNothing;  ///< the deleted partner, if an end event lacks it
+
+  int other() const {
+    const int its = first == receiver ? second : first;
+    return its != kNothing ? its : gone;
+  }
 };
 
 /// A contact that has begun and not ended, for a receiver that gets end events.
 struct OpenContact {
   int receiver = kNothing;
   int other = kNothing;
-  bool apart = false;  ///< the other is gone, or far away, or one of the two is SPECTRAL
+  int since = 0;       ///< tick of its begin
+  bool apart = false;  ///< it did not begin now, and the other is gone, or far away, or one is SPECTRAL
 };
 
 /// Sums over the present bodies of group 0 that are not kinematic.
@@ -60,12 +61,11 @@ struct Sums {
 struct Tick {
   std::vector<BodyState> bodies;
   Sums sums;
-  bool acted = false;  ///< an action was carried out in this tick
-  /// An action for which displaces() is true was carried out, or bodies overlapped at the start.
-  bool displaced = false;
-  double depth = 0;    ///< deepest overlap as a part of the thinner body's half width
-  double opening = 0;  ///< widest opening of a joint as a part of its lever
-  double shift = 0;    ///< sum of all overlaps and openings, in cells
+  bool acted = false;      ///< an action was carried out in this tick
+  bool displaced = false;  ///< a setter has displaced something, or bodies overlapped at the start
+  double depth = 0;        ///< deepest overlap as a part of the thinner body's half width
+  double opening = 0;      ///< widest opening of a joint as a part of its lever
+  double shift = 0;        ///< sum of all overlaps and openings, in cells
   std::vector<OpenContact> open;
 };
 
@@ -80,8 +80,10 @@ struct Recording {
 /// Amount of what is recorded. STATES leaves out sums, overlaps and openings.
 enum class Detail { STATES, ALL };
 
-/// Runs the scene. With `p_start`, the bodies get these states before the first tick, and the joints keep
-/// what they have from the scene's own start.
+/// Runs the scene. With `p_start`, the bodies get these states before the first tick.
 Recording run(const SceneData& scene, Detail detail, const std::vector<BodyState>* p_start = nullptr);
+
+/// Returns a program that builds the scene through the public API and prints the bodies' states in each tick.
+std::string programOf(const SceneData& scene, const std::string& comment);
 
 }  // namespace hunt

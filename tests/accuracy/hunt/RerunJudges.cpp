@@ -1,24 +1,16 @@
-#include "RerunJudges.h"
-
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <vector>
+
+#include "Judges.h"
 
 namespace hunt {
 namespace {
 
-struct Difference {
-  int tick = 0;
-  int body = kNothing;
-  double size = 0;
-};
-
 // Returns where a body of the scene is first farther than `limit` from its place in another course; with
 // limit 0, where any bit differs. Tick 0 of `other` is tick `shift` of `course`. Tiles are not compared.
-Difference firstDifference(const Trial& trial, const Recording& other, std::size_t shift, std::size_t ticks,
-                           double limit) {
+Answer findDifference(const Trial& trial, const Recording& other, double limit, const char* text,
+                      std::size_t ticks, std::size_t shift = 0) {
   const std::vector<Tick>& course = trial.course.ticks;
   for (std::size_t i = 0; i <= ticks && i < other.ticks.size() && i + shift < course.size(); ++i) {
     for (std::size_t body = 0; body < trial.scene.bodies.size(); ++body) {
@@ -27,161 +19,117 @@ Difference firstDifference(const Trial& trial, const Recording& other, std::size
       const BodyState &a = course[i + shift].bodies[body], &b = other.ticks[i].bodies[body];
       const double size = length(a.place - b.place);
       if (a.present != b.present || !(size <= limit) || (limit == 0 && !(a == b)))
-        return {static_cast<int>(i + shift), static_cast<int>(body), size};
+        return Finding{static_cast<int>(i + shift), size, limit, text + (", body " + std::to_string(body))};
     }
   }
   return {};
 }
 
-std::optional<Finding> findingOf(const Difference& difference, double limit, const char* text) {
-  if (difference.body == kNothing) return std::nullopt;
-  return Finding{difference.tick, difference.size, limit,
-                 std::string(text) + ", body " + std::to_string(difference.body)};
+SceneData atOtherLevel(SceneData scene) {
+  scene.level = scene.isFast() ? df::ACCURACY_DEFAULT : df::ACCURACY_FAST;
+  return scene;
 }
 
 int countDynamic(const SceneData& scene) {
   return static_cast<int>(std::count_if(scene.bodies.begin(), scene.bodies.end(),
-                                        [](const BodyData& body) { return body.isDynamic(); }));
+                                        [](const BodyData& its) { return its.isDynamic(); }));
 }
 
-bool hasAnyAction(const SceneData& scene) {
-  return std::any_of(scene.actions.begin(), scene.actions.end(), [](auto& its) { return its.present; });
-}
-
-bool hasJoints(const SceneData& scene) {
-  return std::any_of(scene.joints.begin(), scene.joints.end(), [](auto& its) { return its.present; });
-}
-
-bool areEqual(const ContactEvent& a, const ContactEvent& b) {
-  return a.tick == b.tick && a.begins == b.begins && a.receiver == b.receiver && a.first == b.first &&
-         a.second == b.second;
-}
-
-// Returns the events of bodies of group 0.
-std::vector<ContactEvent> eventsOfFirst(const SceneData& scene, const Recording& course) {
-  std::vector<ContactEvent> events;
-  for (const ContactEvent& event : course.events) {
-    if (scene.bodies[static_cast<std::size_t>(event.receiver)].group == 0) events.push_back(event);
-  }
-  return events;
-}
-
-bool hasDistantGroup(const SceneData& scene) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](auto& its) { return its.group == 1; });
-}
-
-SceneData withoutDistantGroup(SceneData scene) {
-  for (JointData& joint : scene.joints) joint.present = joint.present && scene.groupOf(joint) == 0;
-  for (Action& action : scene.actions) action.present = action.present && scene.groupOf(action) < 1;
-  for (BodyData& body : scene.bodies) body.present = body.present && body.group == 0;
-  for (ObstacleData& obstacle : scene.obstacles) obstacle.present = obstacle.present && obstacle.group == 0;
-  return scene;
-}
-
-}  // namespace
-
-bool appliesIsolation(const Trial& trial) {
+Answer judgeIsolation(const Trial& trial) {
   constexpr double kNear = 1000;
-  return std::all_of(trial.course.ticks.begin(), trial.course.ticks.end(), [](const Tick& tick) {
-    return std::all_of(tick.bodies.begin(), tick.bodies.end(), [](const BodyState& state) {
-      return length(state.place) + length(state.velocity) < kNear;
-    });
-  });
-}
-
-std::optional<Finding> findIsolation(const Trial& trial) {
+  for (const Tick& tick : trial.course.ticks) {
+    for (const BodyState& its : tick.bodies) {
+      if (!(length(its.place) + length(its.velocity) < kNear)) return notAsked();
+    }
+  }
   SceneData compared = trial.scene;
-  const bool has_group = hasDistantGroup(compared);
-  if (has_group) {
-    compared = withoutDistantGroup(compared);
+  const bool has_group = std::any_of(compared.bodies.begin(), compared.bodies.end(),
+                                     [](const BodyData& its) { return its.group == 1; });
+  if (has_group) {  // a scene that is being made smaller
+    for (JointData& its : compared.joints) its.present = its.present && compared.groupOf(its) == 0;
+    for (BodyData& its : compared.bodies) its.present = its.present && its.group == 0;
+    for (BodyData& its : compared.obstacles) its.present = its.present && its.group == 0;
   } else {
     addDistantGroup(compared);
   }
   const Recording other = run(compared, Detail::STATES);
-  const bool is_older = has_group ? trial.scene.later_groups_first : compared.later_groups_first;
-  const Difference difference = firstDifference(trial, other, 0, trial.course.ticks.size(), 0);
-  if (difference.body != kNothing)
-    return findingOf(difference, 0,
-                     is_older ? "moves otherwise with an older group far away"
-                              : "moves otherwise with a younger group far away");
-  const std::vector<ContactEvent> one = eventsOfFirst(trial.scene, trial.course);
-  const std::vector<ContactEvent> two = eventsOfFirst(compared, other);
-  const auto differ = std::mismatch(one.begin(), one.end(), two.begin(), two.end(), areEqual);
-  if (differ.first == one.end() && differ.second == two.end()) return std::nullopt;
-  return Finding{differ.first != one.end() ? differ.first->tick : differ.second->tick, 0, 0,
+  Answer answer =
+      findDifference(trial, other, 0,
+                     compared.later_groups_first ? "moves otherwise with an older group far away"
+                                                 : "moves otherwise with a younger group far away",
+                     trial.course.ticks.size());
+  if (answer.finding) return answer;
+  const auto eventsOf = [&](const Recording& course) {  // of bodies of group 0
+    std::vector<std::array<int, 5>> events;
+    for (const ContactEvent& its : course.events) {
+      if (at(compared.bodies, its.receiver).group == 0)
+        events.push_back({its.tick, its.begins, its.receiver, its.first, its.second});
+    }
+    return events;
+  };
+  const auto one = eventsOf(trial.course), two = eventsOf(other);
+  const auto differ = std::mismatch(one.begin(), one.end(), two.begin(), two.end());
+  if (differ.first == one.end() && differ.second == two.end()) return {};
+  return Finding{(differ.first != one.end() ? *differ.first : *differ.second)[0], 0, 0,
                  "gets other events with a group far away"};
 }
 
-bool appliesLevels(const Trial& trial) {
-  const SceneData& scene = trial.scene;
+Answer judgeLevels(const Trial& trial) {
   constexpr double kFastest = 1;
-  if (hasAnyAction(scene) || hasJoints(scene) || countDynamic(scene) != 1) return false;
-  return scene.obstacle_restitution == 0 &&
-         std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyData& body) {
-           if (!body.present) return true;
-           if (body.kinematic) return body.velocity == Vec2{} && body.spin == 0;
-           return body.restitution == 0 && body.stiffness == 0 && body.field == kNothing &&
-                  length(body.velocity) <= kFastest && std::abs(body.spin) <= kFastest;
-         });
-}
-
-std::optional<Finding> findLevels(const Trial& trial) {
-  constexpr double kNear = .1;
-  SceneData changed = trial.scene;
-  changed.level = changed.level == df::ACCURACY_FAST ? df::ACCURACY_DEFAULT : df::ACCURACY_FAST;
-  changed.ticks = std::min(changed.ticks, 60);
-  const Recording other = run(changed, Detail::STATES);
-  // A body that the fast level stops may lose the rest of a tick.
+  const SceneData& scene = trial.scene;
+  if (hasActions(scene) || any(scene.joints, [](auto&) { return true; }) || countDynamic(scene) != 1 ||
+      scene.obstacle_restitution != 0 || any(scene.bodies, [](const BodyData& its) {
+        if (its.kinematic) return its.velocity != Vec2{} || its.spin != 0;
+        return its.restitution != 0 || its.stiffness != 0 || its.field != kNothing ||
+               length(its.velocity) > kFastest || std::abs(its.spin) > kFastest;
+      }))
+    return notAsked();
+  const Recording other = run(atOtherLevel(scene), Detail::STATES);
   double speed = 0;
-  for (const BodyState& state : trial.course.ticks.front().bodies)
-    speed = std::max(speed, length(state.velocity));
-  const double limit = kNear + speed;
-  return findingOf(firstDifference(trial, other, 0, 60, limit), limit, "moves otherwise at the other level");
+  for (std::size_t i = 0; i < std::min<std::size_t>(other.ticks.size(), 61); ++i) {
+    for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+      const BodyState &one = trial.course.ticks[i].bodies[body], &two = other.ticks[i].bodies[body];
+      if (!scene.bodies[body].isDynamic()) continue;
+      // A body that the fast level stops may lose the rest of a tick.
+      speed = std::max(speed, length(one.velocity) + std::abs(one.spin));
+      const double size = length(one.place - two.place), limit = .1 + speed;
+      if (!(size <= limit))
+        return Finding{static_cast<int>(i), size, limit, "moves otherwise at the other level"};
+    }
+  }
+  return {};
 }
 
-std::optional<Finding> findOpening(const Trial& trial) {
-  const double limit = trial.scene.level == df::ACCURACY_FAST ? .1 : .01;
-  const auto widest = [](const Recording& course, std::size_t& tick) {
-    double most = 0;
+Answer judgeOpening(const Trial& trial) {
+  if (!isModerate(trial)) return notAsked();
+  const auto widest = [](const Recording& course) {
+    Finding most;
     for (std::size_t i = 0; i < course.ticks.size() && !course.ticks[i].displaced; ++i) {
-      if (course.ticks[i].opening > most) {
-        most = course.ticks[i].opening;
-        tick = i;
-      }
+      if (course.ticks[i].opening > most.value)
+        most = {static_cast<int>(i), course.ticks[i].opening, 0, "opening of a joint, of its lever"};
     }
     return most;
   };
-  std::size_t tick = 0, other_tick = 0;
-  const double opening = widest(trial.course, tick);
-  if (opening <= limit) return std::nullopt;
-  SceneData changed = trial.scene;
-  changed.level = changed.level == df::ACCURACY_FAST ? df::ACCURACY_DEFAULT : df::ACCURACY_FAST;
-  const double other = widest(run(changed, Detail::ALL), other_tick);
+  Finding found = widest(trial.course);
+  found.limit = trial.scene.isFast() ? .1 : .01;
+  if (found.value <= found.limit) return {};
   // Joints to which nothing fits open at both levels.
-  const double allowed = std::max(limit, 1.5 * other);
-  if (opening <= allowed) return std::nullopt;
-  return Finding{static_cast<int>(tick), opening, allowed, "opening of a joint, of its lever"};
-}
-
-bool appliesRebuild(const Trial& trial) {
-  // A marked body still acts in the tick in which it is deleted, and a handler acts within a tick.
-  const bool has_others =
-      std::any_of(trial.scene.actions.begin(), trial.scene.actions.end(), [](const Action& action) {
-        return action.present &&
-               (action.when != Action::When::TICK || action.kind == Action::Kind::MARK_BODY);
-      });
-  return !has_others && countDynamic(trial.scene) <= 2 && trial.scene.ticks <= 100;
+  const double other = widest(run(atOtherLevel(trial.scene), Detail::ALL)).value;
+  found.limit = std::max(found.limit, 1.5 * other);
+  if (found.value <= found.limit) return {};
+  return found;
 }
 
 // Builds the world that a setter leaves, and compares 30 ticks. Actions that only change a state are
 // repeated.
-std::optional<Finding> findRebuild(const Trial& trial) {
+Answer judgeRebuild(const Trial& trial) {
+  // A marked body still acts in the tick in which it is deleted, and a handler acts within a tick.
+  if (countDynamic(trial.scene) > 2 || trial.scene.ticks > 100 || actsOn(trial.scene, {"mark"}) ||
+      any(trial.scene.actions, [](const Action& its) { return its.when != Action::When::TICK; }))
+    return notAsked();
   constexpr int kTicks = 30;
-  constexpr double kNear = 1e-6, kFastNear = .02;
-  constexpr std::array kRepeated = {Action::Kind::VELOCITY, Action::Kind::SPIN,    Action::Kind::POSITION,
-                                    Action::Kind::ANGLE,    Action::Kind::IMPULSE, Action::Kind::FORCE};
   const SceneData& scene = trial.scene;
-  int at = hasAnyAction(scene) ? scene.ticks + 1 : 10 + static_cast<int>(scene.seed % 20);
+  int at = hasActions(scene) ? scene.ticks + 1 : 10 + static_cast<int>(scene.seed % 20);
   for (const Action& action : scene.actions) {
     if (action.present) at = std::min(at, action.tick);
   }
@@ -189,55 +137,54 @@ std::optional<Finding> findRebuild(const Trial& trial) {
   for (const Action& action : scene.actions) {
     if (action.present && action.tick > at) end = std::min(end, action.tick - 1);
   }
-  if (at < 1 || at > end) return std::nullopt;
+  if (at < 1 || at > end) return {};
   SceneData until = scene;
   until.ticks = at;
   SceneData rebuilt = run(until, Detail::STATES).end;
   rebuilt.ticks = end - at + 1;
   rebuilt.actions = scene.actions;
   for (Action& action : rebuilt.actions) {
-    const bool is_repeated = std::find(kRepeated.begin(), kRepeated.end(), action.kind) != kRepeated.end();
+    bool is_repeated = false;
+    for (const char* p_name : {"velocity", "spin", "position", "angle", "impulse", "force"})
+      is_repeated = is_repeated || action.is(p_name);
     action.present = action.present && action.tick == at && is_repeated;
     action.tick = 1;
   }
   const auto before = static_cast<std::size_t>(at - 1);
   const Recording other = run(rebuilt, Detail::STATES, &trial.course.ticks[before].bodies);
-  const bool is_fast = scene.level == df::ACCURACY_FAST || rebuilt.level == df::ACCURACY_FAST;
-  const double limit = is_fast ? kFastNear : kNear;
-  return findingOf(firstDifference(trial, other, before, static_cast<std::size_t>(rebuilt.ticks), limit),
-                   limit, "moves otherwise than in a world that is built this way");
+  return findDifference(trial, other, scene.isFast() || rebuilt.isFast() ? .02 : 1e-6,
+                        "moves otherwise than in a world that is built this way",
+                        static_cast<std::size_t>(rebuilt.ticks), before);
 }
 
-// True if the tiles of each row follow each other with gaps of at most 1/64 cell.
-bool areRowsWhole(const SceneData& scene) {
+Answer judgeTiles(const Trial& trial) {
+  // The tiles of each row are equal, and follow each other with gaps of at most 1/64 cell.
   constexpr double kGap = 1.0 / 64 + 1e-9;
-  std::map<int, Vec2> ends;  // of the last tile, by row
-  const auto follows = [&](int row, Vec2 centre, Vec2 half) {
-    const Vec2 lower = centre - half, upper = centre + half;
-    const auto found = ends.find(row);
-    const bool is_near = found == ends.end() || std::abs(lower.x - found->second.x) <= kGap ||
-                         std::abs(lower.y - found->second.y) <= kGap;
-    ends[row] = upper;
-    return is_near;
+  std::map<int, BodyData> rows;  // the last tile of each
+  const auto isApart = [&](const BodyData& its) {
+    if (its.row == kNothing) return false;
+    const auto [at, is_first] = rows.try_emplace(its.row, its);
+    const BodyData last = at->second;
+    const Vec2 apart = its.place - its.half() - (last.place + last.half());
+    at->second = its;
+    return !is_first && ((std::abs(apart.x) > kGap && std::abs(apart.y) > kGap) ||
+                         its.friction != last.friction || its.restitution != last.restitution);
   };
-  for (const ObstacleData& its : scene.obstacles) {
-    if (its.present && its.row != kNothing && !follows(its.row, its.centre, its.half)) return false;
-  }
-  for (const BodyData& its : scene.bodies) {
-    if (its.present && its.row != kNothing && !follows(its.row, its.place, .5 * its.parts[0].size))
-      return false;
-  }
-  return !ends.empty();
+  if (any(trial.scene.obstacles, isApart) || any(trial.scene.bodies, isApart) || rows.empty() ||
+      hasActions(trial.scene) || countDynamic(trial.scene) > 2)
+    return notAsked();
+  return findDifference(trial, run(withoutSeams(trial.scene), Detail::STATES), 1e-6,
+                        "moves otherwise than on one Object", 60);
 }
 
-bool appliesTiles(const Trial& trial) {
-  return areRowsWhole(trial.scene) && !hasAnyAction(trial.scene) && countDynamic(trial.scene) <= 2;
-}
+}  // namespace
 
-std::optional<Finding> findTiles(const Trial& trial) {
-  constexpr double kNear = 1e-6;
-  const Recording other = run(withoutSeams(trial.scene), Detail::STATES);
-  return findingOf(firstDifference(trial, other, 0, 60, kNear), kNear, "moves otherwise than on one Object");
+std::vector<Judge> rerunJudges() {
+  return {{"opening", judgeOpening},
+          {"isolation", judgeIsolation, 40},
+          {"levels", judgeLevels},
+          {"rebuild", judgeRebuild},
+          {"tiles", judgeTiles}};
 }
 
 }  // namespace hunt

@@ -1,10 +1,7 @@
-// Draws random scenes. Each family of scenes is drawn by one function; Families.cpp has them.
+// Draws the parts of random scenes. Families.cpp makes scenes of them.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <initializer_list>
-#include <span>
 #include <vector>
 
 #include "HuntScene.h"
@@ -15,75 +12,63 @@ namespace hunt {
 class SceneDraw {
  public:
   SceneDraw(SceneData& scene, std::uint64_t seed) : m_scene(scene), m_random(seed) {}
-
   /// Draws everything that is common to all families: gravity, aspect, level, obstacles' surface, material.
   void drawWorld();
-  /// Draws bodies, obstacles and joints of a family, by weight; `is_small` excludes costly families.
-  void drawFamily(bool is_small);
   /// Draws setters and deletions. Families that depend on them have drawn theirs already.
   void drawActions();
 
- private:
-  // Random numbers.
+ protected:
   bool chance(double probability) { return m_random.unit() < probability; }
   int below(int n) { return static_cast<int>(m_random.below(static_cast<std::uint64_t>(n))); }
   double between(double low, double high) { return low + (high - low) * m_random.unit(); }
-  double oneOf(std::initializer_list<double> values) {
-    return *(values.begin() + below(static_cast<int>(values.size())));
+  template <class Element>
+  Element oneOf(const std::vector<Element>& list) {
+    return at(list, below(static_cast<int>(list.size())));
   }
+  double oneOf(std::initializer_list<double> values) { return oneOf(std::vector<double>(values)); }
   Vec2 vectorUpTo(double most) {
     const double x = between(-most, most);
     return {x, between(-most, most)};
   }
   double speed();  ///< .01 … 30 cells per tick, mostly below 1
-  double anyMass();
+  double mass();
 
-  // Parts of scenes.
-  int addBody(Vec2 place, std::vector<Part> parts);
-  BodyData& body(int index) { return m_scene.bodies[static_cast<std::size_t>(index)]; }
-  int addObstacle(Vec2 centre, Vec2 half, int row = kNothing);
+  BodyData& addBody(Vec2 place, std::vector<Part> parts);
+  BodyData& body(int index) { return at(m_scene.bodies, index); }
+  int lastBody() const { return static_cast<int>(m_scene.bodies.size()) - 1; }
+  BodyData& addObstacle(Vec2 centre, Vec2 half);
+  /// Adds an obstacle, or a kinematic body.
+  BodyData& addWall(Vec2 centre, Vec2 half, bool as_body, Vec2 velocity = {});
+  void addBoundary(Boundary::Kind kind, Vec2 lower, Vec2 upper, Vec2 velocity = {}) {
+    m_scene.boundaries.push_back({kind, lower, upper, velocity});
+  }
+  void addFloor(double half_width = 500, double top = 0);
+  /// Adds a row of tiles from `from` to the right: Objects, or kinematic bodies.
+  void addTiles(Vec2 from, int count, double size, double gap = 0, bool as_bodies = false,
+                Vec2 velocity = {});
+  /// Adds four walls of this thickness around the origin, of Objects or kinematic bodies.
+  void addRoom(Vec2 half, double thickness, bool as_bodies, Vec2 velocity);
   /// Adds a joint with one point for both bodies.
   JointData& addJoint(JointData::Kind kind, int a, int b, Vec2 point);
   /// Adds a joint between the middles of two bodies, or from a point of the world to a body's middle.
   JointData& addLink(JointData::Kind kind, int a, int b, Vec2 world_point = {});
-  void setSpring(JointData& joint, double mass);
-  void setMaterial(BodyData& body);
+  void setSpring(JointData& joint);
   /// Draws a shape that fits into a circle of this radius.
   std::vector<Part> anyShape(double radius);
   std::vector<Part> anyPolygon(double radius);
-  void addFloor(double half_width = 500);
-  /// Adds a row of tiles from `from` to the right: Objects, or kinematic bodies. Returns the row's number.
-  int addTiles(Vec2 from, int count, double size, double gap, bool as_bodies, Vec2 velocity);
-  /// Adds four walls of this thickness around the origin, of Objects or kinematic bodies.
-  void addRoom(Vec2 half, double thickness, bool as_bodies, Vec2 velocity);
   /// Exchanges x and y of everything, or reverses y.
   void transpose();
   void turnOver();
-
-  // Families.
-  void drawTiles();
-  void drawStairs(double size, bool as_bodies);
-  void drawSlider(double from, double size);
-  void drawPush();
-  void drawChain();
-  void drawMotor();
-  void drawElastic();
-  void drawContact();
-  void drawZone();
-  void drawHeap();
-  void drawPlanks();
-  void drawBars();
-  void drawShot();
-  void drawFields();
-  void drawMix();
-  void drawMixJoint(int a, int b);
-
-  void addAction(std::span<const Action::Kind> kinds, int tick);
-  void drawValues(Action& action);
+  void addAction(const std::vector<const char*>& names, int tick);
 
   SceneData& m_scene;
-  naiad::SplitMix64 m_random;
   int m_material = 0;
+
+ private:
+  template <class Change>
+  void changeVectors(Change change);
+
+  naiad::SplitMix64 m_random;
 };
 
 /// Makes the only part of a body.

@@ -1,6 +1,9 @@
 // The calls of the public API that built and changed a world, written as a program.
 #pragma once
 
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -30,19 +33,29 @@ class Script {
     add(before + function + "(" + list + ");");
   }
   void add(const std::string& statement) {
-    if (!m_writes) return;
     if (!m_in_handler) writeUpdates();
     (m_in_handler ? m_handlers : m_steps) += "  " + statement + "\n";
   }
-  void update();
+  void update() { ++m_updates; }
   /// Writes the statements up to endHandler() into the handler of the receiver's event with this number.
-  void beginHandler(int receiver, int event);
-  void endHandler();
-  /// Returns the whole program, with a comment in front.
-  std::string program(const std::string& comment, const std::string& fields, std::size_t bodies,
-                      std::size_t obstacles, std::size_t joints) const;
+  void beginHandler(int receiver, int event) {
+    m_in_handler = true;
+    m_handlers += "  handlers[{" + std::to_string(receiver) + ", " + std::to_string(event) + "}] = [&] {\n";
+  }
+  void endHandler() {
+    m_handlers += "  };\n";
+    m_in_handler = false;
+  }
+  std::string handlersAndSteps() {
+    writeUpdates();
+    return m_handlers + m_steps;
+  }
 
-  static std::string codeOf(double value);
+  static std::string codeOf(double value) {
+    if (std::isinf(value)) return value > 0 ? "HUGE_VAL" : "-HUGE_VAL";
+    std::array<char, 40> digits;
+    return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+  }
   static std::string codeOf(bool value) { return value ? "true" : "false"; }
   static std::string codeOf(df::Vector v) { return "Vector(" + codeOf(v.x()) + ", " + codeOf(v.y()) + ")"; }
   template <class Named>
@@ -51,14 +64,25 @@ class Script {
   }
   static std::string codeOf(const Code& code) { return code.text; }
   static std::string codeOf(df::Accuracy level) {
-    return level == df::ACCURACY_FAST ? "df::ACCURACY_FAST" : "df::ACCURACY_DEFAULT";
+    return level == df::ACCURACY_FAST ? "ACCURACY_FAST" : "ACCURACY_DEFAULT";
   }
-  static std::string codeOf(df::Solidness solidness);
-  static std::string codeOf(const df::Box& box);
-  static std::string codeOf(const std::vector<df::Vector>& corners);
+  static std::string codeOf(df::Solidness solidness) {
+    return solidness == df::HARD ? "HARD" : solidness == df::SOFT ? "SOFT" : "SPECTRAL";
+  }
+  static std::string codeOf(const df::Box& box) {
+    return "Box(" + codeOf(box.getCorner()) + ", " + codeOf(box.width()) + ", " + codeOf(box.height()) + ")";
+  }
+  static std::string codeOf(const std::vector<df::Vector>& corners) {
+    std::string list;
+    for (const df::Vector corner : corners) list += (list.empty() ? "" : ", ") + codeOf(corner);
+    return "{" + list + "}";
+  }
 
  private:
-  void writeUpdates();
+  void writeUpdates() {
+    if (m_updates > 0) m_steps += "  update(" + std::to_string(m_updates) + ");\n";
+    m_updates = 0;
+  }
 
   const bool m_writes;
   std::string m_steps, m_handlers;

@@ -1,6 +1,5 @@
 #include "Shrink.h"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -13,10 +12,11 @@ class Shrinker {
       : m_scene(scene),
         m_judge(judge),
         m_tries(tries),
-        m_keeps_walls(judge.name == std::string("through")),
+        m_keeps_walls(judge.name == "through"),
         m_starts_apart(startsApart(scene)) {}
 
   SceneData result() {
+    attempt([](SceneData&) {});
     while (m_tries > 0 && shrinkOnce()) {
     }
     return m_scene;
@@ -24,14 +24,20 @@ class Shrinker {
 
  private:
   bool shrinkOnce() {
-    bool has_shrunk = shorten();
-    has_shrunk |= removeFrom(&SceneData::actions) | removeFrom(&SceneData::joints);
+    const int ticks = m_tick + 1;
+    bool done = ticks < m_scene.ticks && attempt([&](SceneData& its) { its.ticks = ticks; });
+    done |= removeFrom(&SceneData::actions) | removeFrom(&SceneData::joints);
     for (std::size_t i = m_scene.bodies.size(); i-- > 0;) {
-      if (m_scene.bodies[i].present && !isWall(m_scene.bodies[i]))
-        has_shrunk |= attempt([i](SceneData& scene) { removeBody(scene, i); });
+      if (isRemovable(i)) done |= attempt([&](SceneData& its) { removeBody(its, static_cast<int>(i)); });
     }
-    if (!m_keeps_walls) has_shrunk |= removeFrom(&SceneData::obstacles);
-    return has_shrunk | simplify();
+    if (!m_keeps_walls) done |= removeFrom(&SceneData::obstacles);
+    done |= simplify([](SceneData& its) -> double& { return its.aspect; }, {1}) |
+            simplify([](SceneData& its) -> double& { return its.obstacle_restitution; }, {0}) |
+            simplify([](SceneData& its) -> double& { return its.obstacle_friction; }, {0, .5}) |
+            simplify([](SceneData& its) -> double& { return its.gravity.x; }, {0}) |
+            simplify([](SceneData& its) -> double& { return its.gravity.y; }, {0, .01});
+    for (std::size_t i = 0; i < m_scene.bodies.size(); ++i) done |= isRemovable(i) && simplifyBody(i);
+    return done;
   }
 
   static bool startsApart(SceneData scene) {
@@ -39,7 +45,9 @@ class Shrinker {
     return !run(scene, Detail::ALL).ticks.front().displaced;
   }
 
-  bool isWall(const BodyData& body) const { return m_keeps_walls && body.kinematic; }
+  bool isRemovable(std::size_t body) const {
+    return m_scene.bodies[body].present && !(m_keeps_walls && m_scene.bodies[body].kinematic);
+  }
 
   // Keeps a change if the judge still finds a violation.
   bool attempt(const std::function<void(SceneData&)>& change) {
@@ -47,93 +55,67 @@ class Shrinker {
     SceneData changed = m_scene;
     change(changed);
     if (m_starts_apart && !startsApart(changed)) return false;
-    const std::vector<Verdict> verdicts = judgeScene(changed, &m_judge);
-    if (!verdicts.front().finding) return false;
+    const Answer answer = judgeScene(changed, &m_judge).front().second;
+    if (!answer.finding) return false;
     m_scene = changed;
-    m_tick = verdicts.front().finding->tick;
+    m_tick = answer.finding->tick;
     return true;
-  }
-
-  bool shorten() {
-    if (m_tick < 0) attempt([](SceneData&) {});
-    const int ticks = m_tick + 1;
-    return m_tick >= 0 && ticks < m_scene.ticks && attempt([&](SceneData& its) { its.ticks = ticks; });
   }
 
   template <class Element>
   bool removeFrom(std::vector<Element> SceneData::*list) {
-    bool has_shrunk = false;
+    bool done = false;
     for (std::size_t i = (m_scene.*list).size(); i-- > 0;) {
       if ((m_scene.*list)[i].present)
-        has_shrunk |= attempt([&](SceneData& scene) { (scene.*list)[i].present = false; });
-    }
-    return has_shrunk;
-  }
-
-  static void removeBody(SceneData& scene, std::size_t body) {
-    const int index = static_cast<int>(body);
-    scene.bodies[body].present = false;
-    for (JointData& joint : scene.joints) joint.present &= joint.a != index && joint.b != index;
-    for (Action& action : scene.actions) {
-      const bool concerns =
-          action.receiver == index || (targetOf(action.kind) == TargetKind::BODY && action.target == index);
-      action.present &= !concerns;
-    }
-  }
-
-  // Sets a number of the scene to a simpler one.
-  template <class Get>
-  bool simplifyNumber(Get get, std::initializer_list<double> simpler) {
-    const double now = get(m_scene);
-    for (const double value : simpler) {
-      if (value == now) return false;
-      if (attempt([&](SceneData& scene) { get(scene) = value; })) return true;
-    }
-    return false;
-  }
-
-  bool simplify() {
-    bool done = simplifyNumber([](SceneData& its) -> double& { return its.aspect; }, {1});
-    done |= simplifyNumber([](SceneData& its) -> double& { return its.obstacle_restitution; }, {0});
-    done |= simplifyNumber([](SceneData& its) -> double& { return its.obstacle_friction; }, {0, .5});
-    done |= simplifyNumber([](SceneData& its) -> double& { return its.gravity.x; }, {0});
-    done |= simplifyNumber([](SceneData& its) -> double& { return its.gravity.y; }, {0, .01});
-    for (std::size_t i = 0; i < m_scene.bodies.size(); ++i) {
-      if (m_scene.bodies[i].present && !isWall(m_scene.bodies[i])) done |= simplifyBody(i);
+        done |= attempt([&](SceneData& its) { (its.*list)[i].present = false; });
     }
     return done;
   }
 
+  static void removeBody(SceneData& scene, int body) {
+    at(scene.bodies, body).present = false;
+    for (JointData& its : scene.joints) its.present &= its.a != body && its.b != body;
+    for (Action& its : scene.actions)
+      its.present &= its.receiver != body && (its.p_setter->target != TargetKind::BODY || its.target != body);
+  }
+
+  // Sets a number of the scene to a simpler one.
+  bool simplify(const std::function<double&(SceneData&)>& number, std::initializer_list<double> simpler) {
+    const double now = number(m_scene);
+    for (const double value : simpler) {
+      if (value == now) return false;
+      if (attempt([&](SceneData& its) { number(its) = value; })) return true;
+    }
+    return false;
+  }
+
   bool simplifyBody(std::size_t i) {
-    const auto number = [this, i](double BodyData::*field, std::initializer_list<double> simpler) {
-      return simplifyNumber([i, field](SceneData& its) -> double& { return its.bodies[i].*field; }, simpler);
+    bool done = false;
+    const auto try_if = [&](bool condition, void (*change)(BodyData&)) {
+      done |= condition && attempt([&](SceneData& its) { change(its.bodies[i]); });
     };
-    const auto vector = [this, i](Vec2 BodyData::*field) {
-      bool done = false;
+    for (double BodyData::*field :
+         {&BodyData::mass, &BodyData::restitution, &BodyData::spin, &BodyData::angle, &BodyData::linear_drag,
+          &BodyData::quadratic_drag, &BodyData::damping, &BodyData::stiffness, &BodyData::friction}) {
+      const auto number = [=](SceneData& its) -> double& { return its.bodies[i].*field; };
+      if (field == &BodyData::friction) done |= simplify(number, {0, .5});
+      if (field != &BodyData::friction) done |= simplify(number, {field == &BodyData::mass ? 1.0 : 0.0});
+    }
+    const BodyData body = m_scene.bodies[i];
+    const bool is_fixed = body.row != kNothing || any(m_scene.joints, [](auto&) { return true; });
+    for (Vec2 BodyData::*field : {&BodyData::velocity, &BodyData::place}) {
       for (double Vec2::*axis : {&Vec2::x, &Vec2::y}) {
         const double now = m_scene.bodies[i].*field.*axis;
-        done |= simplifyNumber([=](SceneData& its) -> double& { return its.bodies[i].*field.*axis; },
-                               {0, std::round(now), std::round(10 * now) / 10, std::round(100 * now) / 100});
+        done |= (!is_fixed || (field == &BodyData::velocity && body.row == kNothing)) &&
+                simplify([=](SceneData& its) -> double& { return its.bodies[i].*field.*axis; },
+                         {0, std::round(now), std::round(10 * now) / 10, std::round(100 * now) / 100});
       }
-      return done;
-    };
-    bool done = number(&BodyData::mass, {1}) | number(&BodyData::restitution, {0}) |
-                number(&BodyData::friction, {0, .5}) | number(&BodyData::spin, {0}) |
-                number(&BodyData::angle, {0}) | number(&BodyData::linear_drag, {0}) |
-                number(&BodyData::quadratic_drag, {0}) | number(&BodyData::damping, {0}) |
-                number(&BodyData::stiffness, {0});
-    done |= vector(&BodyData::velocity);
-    const bool is_joined = std::any_of(m_scene.joints.begin(), m_scene.joints.end(),
-                                       [](const JointData& joint) { return joint.present; });
-    if (!is_joined) done |= vector(&BodyData::place);
-    if (m_scene.bodies[i].turning) done |= attempt([i](SceneData& its) { its.bodies[i].turning = false; });
-    if (m_scene.bodies[i].field != kNothing)
-      done |= attempt([i](SceneData& its) { its.bodies[i].field = kNothing; });
-    if (m_scene.bodies[i].parts.size() > 1)
-      done |= attempt([i](SceneData& its) { its.bodies[i].parts.resize(1); });
-    const bool is_unit = m_scene.bodies[i].parts.size() == 1 && m_scene.bodies[i].parts[0].size == Vec2{1, 1};
-    if (!is_unit && m_scene.bodies[i].isDynamic())
-      done |= attempt([i](SceneData& its) { its.bodies[i].parts = {Part{}}; });
+    }
+    try_if(body.turning, [](BodyData& its) { its.turning = false; });
+    try_if(body.field != kNothing, [](BodyData& its) { its.field = kNothing; });
+    try_if(body.parts.size() > 1, [](BodyData& its) { its.parts.resize(1); });
+    try_if(body.isDynamic() && (body.parts.size() != 1 || body.parts[0].size != Vec2{1, 1}),
+           [](BodyData& its) { its.parts = {Part{}}; });
     return done;
   }
 
@@ -142,14 +124,14 @@ class Shrinker {
   int m_tries;
   const bool m_keeps_walls;  // the judge assumes that no boundary is missing
   const bool m_starts_apart;
-  int m_tick = -1;  // of the violation
+  int m_tick = 0;  // of the violation
 };
 
 }  // namespace
 
 SceneData shrink(const SceneData& scene, const Judge& judge, int tries) {
   SceneData whole = scene;
-  if (std::string(judge.name) == "isolation") addDistantGroup(whole);
+  if (judge.name == "isolation") addDistantGroup(whole);
   return Shrinker(whole, judge, tries).result();
 }
 

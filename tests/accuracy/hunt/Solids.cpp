@@ -8,26 +8,19 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double distanceToSegment(Vec2 point, Vec2 from, Vec2 to) {
-  const Vec2 edge = to - from;
-  const double along = dot(point - from, edge) / dot(edge, edge);
-  return length(point - from - std::clamp(along, 0.0, 1.0) * edge);
-}
-
-Vec2 normalOf(const SolidPart& part, std::size_t edge) {
+// Returns the least distance of points from the line of an edge, outwards.
+double leastDistance(const SolidPart& part, std::size_t edge, const std::vector<Vec2>& points) {
   const Vec2 along = part.points[(edge + 1) % part.points.size()] - part.points[edge];
-  return Vec2{along.y, -along.x} / length(along);
+  const Vec2 normal = Vec2{along.y, -along.x} / length(along);
+  double least = kInfinity;
+  for (const Vec2 point : points) least = std::min(least, dot(point - part.points[edge], normal));
+  return least;
 }
 
 // Returns the largest distance of all of `b` from an edge of `a`; below 0 if no edge separates them.
 double separation(const SolidPart& a, const SolidPart& b) {
   double most = -kInfinity;
-  for (std::size_t i = 0; i < a.points.size(); ++i) {
-    const Vec2 normal = normalOf(a, i);
-    double least = kInfinity;
-    for (const Vec2 point : b.points) least = std::min(least, dot(point - a.points[i], normal));
-    most = std::max(most, least);
-  }
+  for (std::size_t i = 0; i < a.points.size(); ++i) most = std::max(most, leastDistance(a, i, b.points));
   return most;
 }
 
@@ -35,9 +28,11 @@ double distanceTo(const SolidPart& polygon, Vec2 point) {
   const double outside = separation(polygon, {{point}, 0});
   if (outside <= 0) return outside;
   double least = kInfinity;
-  for (std::size_t i = 0; i < polygon.points.size(); ++i)
-    least = std::min(
-        least, distanceToSegment(point, polygon.points[i], polygon.points[(i + 1) % polygon.points.size()]));
+  for (std::size_t i = 0; i < polygon.points.size(); ++i) {
+    const Vec2 from = point - polygon.points[i];
+    const Vec2 edge = polygon.points[(i + 1) % polygon.points.size()] - polygon.points[i];
+    least = std::min(least, length(from - std::clamp(dot(from, edge) / dot(edge, edge), 0.0, 1.0) * edge));
+  }
   return least;
 }
 
@@ -49,27 +44,18 @@ double depthOfParts(const SolidPart& a, const SolidPart& b) {
   return radii - std::max(separation(a, b), separation(b, a));
 }
 
-double halfWidthOf(const SolidPart& part) {
-  if (part.points.size() == 1) return part.radius;
-  double least = kInfinity;
-  for (std::size_t i = 0; i < part.points.size(); ++i) {
-    double most = 0;
-    for (const Vec2 point : part.points)
-      most = std::max(most, -dot(point - part.points[i], normalOf(part, i)));
-    least = std::min(least, most);
-  }
-  return .5 * least + part.radius;
-}
-
 }  // namespace
 
 void measure(Solid& solid) {
   solid.reach = 0;
   solid.thickness = kInfinity;
   for (const SolidPart& part : solid.parts) {
-    for (const Vec2 point : part.points)
-      solid.reach = std::max(solid.reach, length(point - solid.centre) + part.radius);
-    solid.thickness = std::min(solid.thickness, halfWidthOf(part));
+    double width = part.points.size() == 1 ? 0 : kInfinity;
+    for (std::size_t i = 0; i < part.points.size(); ++i) {
+      solid.reach = std::max(solid.reach, length(part.points[i] - solid.centre) + part.radius);
+      if (width > 0) width = std::min(width, std::max(0.0, -leastDistance(part, i, part.points)));
+    }
+    solid.thickness = std::min(solid.thickness, .5 * width + part.radius);
   }
 }
 

@@ -8,10 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
-#include <optional>
 #include <sstream>
-#include <string>
-#include <vector>
 
 #include "Judges.h"
 #include "Shrink.h"
@@ -21,43 +18,24 @@ namespace {
 
 using hunt::Judge;
 using hunt::SceneData;
-using hunt::Verdict;
 
-constexpr double kDefaultSeconds = 10;
 constexpr unsigned kMaxSceneSeconds = 120;
+constexpr double kMaxMassRatio = 1e6;  // docs/physics/rigid.md excludes greater ones
 constexpr int kShrinkTries = 400, kShrinkTriesOfLongScenes = 12;
 
 struct Settings {
   std::uint64_t seed = 1;
   std::int64_t scenes = 0;
-  double seconds = 0;
+  double seconds = 10;
   int shrink = 3;
-  std::string only, limits;
   std::optional<std::uint64_t> scene;
   const Judge* p_only = nullptr;
   std::map<std::string, long> ceilings;
 };
 
-struct Tally {
-  long applied = 0;
-  long violations = 0;
-  std::uint64_t first_seed = 0;
-};
-
-double secondsSinceStart() {
-  static const auto start = std::chrono::steady_clock::now();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 // Message that names the scene in which the program crashes or hangs.
 std::array<char, 80> s_last_words;
 volatile sig_atomic_t s_last_size = 0;
-
-void prepareLastWords(std::uint64_t seed) {
-  s_last_size =
-      std::snprintf(s_last_words.data(), s_last_words.size(), "\nnaiad_hunt: crash or hang in scene %llu\n",
-                    static_cast<unsigned long long>(seed));
-}
 
 extern "C" void onCrash(int /*signal*/) {
   [[maybe_unused]] const auto written =
@@ -65,56 +43,63 @@ extern "C" void onCrash(int /*signal*/) {
   _exit(1);
 }
 
-// Returns the region that a scene belongs to if docs/physics/ excludes it, else null.
-const char* excludedRegionOf(const SceneData& scene) {
-  constexpr double kMaxMassRatio = 1e6;
-  double least = 1e300, most = 0;
-  for (const hunt::BodyData& body : scene.bodies) {
-    if (!body.isDynamic()) continue;
-    least = std::min(least, body.mass);
-    most = std::max(most, body.mass);
-  }
-  return most > kMaxMassRatio * least ? "mass_ratio" : nullptr;
-}
-
 class Hunt {
  public:
   explicit Hunt(const Settings& settings) : m_settings(settings) {}
 
   int run() {
-    while (!isOver()) {
+    const auto seconds = [start = std::chrono::steady_clock::now()] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    while (m_settings.scenes > 0 ? m_scenes < m_settings.scenes : seconds() < m_settings.seconds)
       examine(m_settings.seed + static_cast<std::uint64_t>(m_scenes + m_excluded));
-      showProgress();
+    long all = 0;
+    bool is_good = true;
+    for (const Judge& judge : hunt::judges()) {
+      if (m_settings.p_only != nullptr && m_settings.p_only != &judge) continue;
+      const Tally& tally = m_tallies[&judge];
+      std::printf("hunt judge=%s applied=%ld violations=%ld allowed=%ld", judge.name.c_str(), tally.applied,
+                  tally.violations, ceilingOf(judge));
+      if (tally.violations > 0) std::printf(" first_seed=%llu", tally.first_seed);
+      std::printf("\n");
+      all += tally.violations;
+      is_good = is_good && tally.violations <= ceilingOf(judge);
     }
-    if (m_shows_progress) std::fputs("\r\033[K", stderr);
-    return report();
+    if (m_excluded > 0)
+      std::printf("hunt left_out=mass_ratio share_percent=%.2f\n",
+                  100 * static_cast<double>(m_excluded) / static_cast<double>(m_scenes + m_excluded));
+    std::printf("hunt scenes=%ld seconds=%.1f violations=%ld seed=%llu\n", m_scenes, seconds(), all,
+                static_cast<unsigned long long>(m_settings.seed));
+    return is_good ? 0 : 1;
   }
 
  private:
-  bool isOver() const {
-    if (m_settings.scenes > 0) return m_scenes >= m_settings.scenes;
-    return secondsSinceStart() >= m_settings.seconds;
-  }
+  struct Tally {
+    long applied = 0;
+    long violations = 0;
+    unsigned long long first_seed = 0;
+  };
 
   void examine(std::uint64_t seed) {
-    prepareLastWords(seed);
-    alarm(kMaxSceneSeconds);
+    s_last_size =
+        std::snprintf(s_last_words.data(), s_last_words.size(), "\nnaiad_hunt: crash or hang in scene %llu\n",
+                      static_cast<unsigned long long>(seed));
     const SceneData scene = hunt::drawScene(seed);
-    if (const char* p_region = excludedRegionOf(scene); p_region != nullptr) {
-      ++m_regions[p_region];
+    if (hunt::massRatio(scene) > kMaxMassRatio) {
       ++m_excluded;
       return;
     }
     ++m_scenes;
-    for (const Verdict& verdict : hunt::judgeScene(scene, m_settings.p_only)) {
-      Tally& tally = m_tallies[verdict.p_judge->name];
-      tally.applied += verdict.applied;
-      if (!verdict.finding) continue;
-      if (tally.violations++ == 0) tally.first_seed = seed;
-      ++m_violations;
-      show(scene, verdict, tally.violations > ceilingOf(*verdict.p_judge));
-    }
+    alarm(kMaxSceneSeconds);
+    const auto answers = hunt::judgeScene(scene, m_settings.p_only);
     alarm(0);
+    for (const auto& [p_judge, answer] : answers) {
+      Tally& tally = m_tallies[p_judge];
+      tally.applied += answer.applies;
+      if (!answer.finding) continue;
+      if (tally.violations++ == 0) tally.first_seed = seed;
+      show(scene, *p_judge, *answer.finding, tally.violations > ceilingOf(*p_judge));
+    }
   }
 
   long ceilingOf(const Judge& judge) const {
@@ -122,81 +107,37 @@ class Hunt {
     return found == m_settings.ceilings.end() ? 0 : found->second;
   }
 
-  void show(const SceneData& scene, const Verdict& verdict, bool is_unknown) {
-    if (m_shows_progress) std::fputs("\r\033[K", stderr);
+  void show(const SceneData& scene, const Judge& judge, const hunt::Finding& finding, bool is_unknown) {
     std::printf("hunt judge=%s seed=%llu family=%s level=%s tick=%d value=%.4g limit=%.4g\n",
-                verdict.p_judge->name, static_cast<unsigned long long>(scene.seed), scene.family.c_str(),
-                scene.level == df::ACCURACY_FAST ? "fast" : "default", verdict.finding->tick,
-                verdict.finding->value, verdict.finding->limit);
+                judge.name.c_str(), static_cast<unsigned long long>(scene.seed), scene.family.c_str(),
+                scene.isFast() ? "fast" : "default", finding.tick, finding.value, finding.limit);
     std::fflush(stdout);
     if (!is_unknown || m_shrunk >= m_settings.shrink) return;
     ++m_shrunk;
-    alarm(0);
-    const int tries = scene.ticks >= 1000 ? kShrinkTriesOfLongScenes : kShrinkTries;
-    const SceneData small = hunt::shrink(scene, *verdict.p_judge, tries);
-    std::fprintf(stderr, "%s\n",
-                 hunt::programOf(small, verdict.p_judge->name + (": " + verdict.finding->text) + ". Scene " +
-                                            std::to_string(scene.seed))
-                     .c_str());
-  }
-
-  void showProgress() {
-    if (!m_shows_progress || secondsSinceStart() < m_next_progress) return;
-    m_next_progress = secondsSinceStart() + .2;
-    constexpr int kWidth = 30;
-    const double part = m_settings.scenes > 0
-                            ? static_cast<double>(m_scenes) / static_cast<double>(m_settings.scenes)
-                            : secondsSinceStart() / m_settings.seconds;
-    const int done = std::min(kWidth, static_cast<int>(kWidth * part));
-    std::fprintf(stderr, "\r[%.*s%*s] %ld scenes, %ld violations", done, "##############################",
-                 kWidth - done, "", static_cast<long>(m_scenes), m_violations);
-  }
-
-  int report() const {
-    bool is_good = true;
-    for (const Judge& judge : hunt::judges()) {
-      if (m_settings.p_only != nullptr && m_settings.p_only != &judge) continue;
-      const auto found = m_tallies.find(judge.name);
-      const Tally tally = found == m_tallies.end() ? Tally{} : found->second;
-      const long allowed = ceilingOf(judge);
-      std::printf("hunt judge=%s applied=%ld violations=%ld allowed=%ld", judge.name, tally.applied,
-                  tally.violations, allowed);
-      if (tally.violations > 0)
-        std::printf(" first_seed=%llu", static_cast<unsigned long long>(tally.first_seed));
-      std::printf("\n");
-      is_good = is_good && tally.violations <= allowed;
-    }
-    const double drawn = static_cast<double>(std::max<std::int64_t>(m_scenes + m_excluded, 1));
-    for (const auto& [region, count] : m_regions)
-      std::printf("hunt left_out=%s share_percent=%.2f\n", region.c_str(),
-                  100 * static_cast<double>(count) / drawn);
-    std::printf("hunt scenes=%lld seconds=%.1f violations=%ld seed=%llu\n", static_cast<long long>(m_scenes),
-                secondsSinceStart(), m_violations, static_cast<unsigned long long>(m_settings.seed));
-    return is_good ? 0 : 1;
+    const SceneData small =
+        hunt::shrink(scene, judge, scene.ticks >= 1000 ? kShrinkTriesOfLongScenes : kShrinkTries);
+    const std::string comment = judge.name + ": " + finding.text + ". Scene " + std::to_string(scene.seed);
+    std::fprintf(stderr, "%s\n", hunt::programOf(small, comment).c_str());
   }
 
   const Settings& m_settings;
-  std::int64_t m_scenes = 0;  ///< examined
-  std::int64_t m_excluded = 0;
-  long m_violations = 0;
+  long m_scenes = 0;  // examined
+  long m_excluded = 0;
   int m_shrunk = 0;
-  std::map<std::string, Tally> m_tallies;
-  std::map<std::string, long> m_regions;
-  const bool m_shows_progress = isatty(STDERR_FILENO) != 0;
-  double m_next_progress = 0;
+  std::map<const Judge*, Tally> m_tallies;
 };
 
 // Prints one scene as a program, with --only JUDGE shrunk, and what the judges find in it.
 int showScene(const Settings& settings) {
   SceneData scene = hunt::drawScene(*settings.scene);
   bool is_good = true;
-  for (const Verdict& verdict : hunt::judgeScene(scene, settings.p_only)) {
-    std::string text = verdict.applied ? "holds" : "does not apply";
-    if (verdict.finding)
-      text = "tick " + std::to_string(verdict.finding->tick) + ": " + verdict.finding->text + ": " +
-             std::to_string(verdict.finding->value) + ", limit " + std::to_string(verdict.finding->limit);
-    std::fprintf(stderr, "%s: %s\n", verdict.p_judge->name, text.c_str());
-    is_good = is_good && !verdict.finding;
+  for (const auto& [p_judge, answer] : hunt::judgeScene(scene, settings.p_only)) {
+    std::string text = answer.applies ? "holds" : "does not apply";
+    if (const auto& found = answer.finding)
+      text = "tick " + std::to_string(found->tick) + ": " + found->text + ": " +
+             std::to_string(found->value) + ", limit " + std::to_string(found->limit);
+    std::fprintf(stderr, "%s: %s\n", p_judge->name.c_str(), text.c_str());
+    is_good = is_good && !answer.finding;
   }
   if (settings.p_only != nullptr && !is_good) scene = hunt::shrink(scene, *settings.p_only, kShrinkTries);
   std::fputs(hunt::programOf(scene, scene.family + ", scene " + std::to_string(scene.seed)).c_str(), stdout);
@@ -205,10 +146,7 @@ int showScene(const Settings& settings) {
 
 std::string storeJudge(const std::string& name, Settings& settings) {
   settings.p_only = hunt::judgeNamed(name);
-  if (settings.p_only != nullptr) return "";
-  std::vector<std::string> names;
-  for (const Judge& judge : hunt::judges()) names.push_back(judge.name);
-  return "unknown judge" + naiad::suggestion(name, names);
+  return settings.p_only != nullptr ? "" : "there is no judge " + name;
 }
 
 std::string storeLimits(const std::string& text, Settings& settings) {
@@ -222,46 +160,34 @@ std::string storeLimits(const std::string& text, Settings& settings) {
   return "";
 }
 
-std::string judgesHelp() {
-  std::string text = "Judges:\n";
-  for (const Judge& judge : hunt::judges())
-    text += std::string("  ") + judge.name + std::string(12 - std::string(judge.name).size(), ' ') +
-            judge.rule + "\n";
-  return text +
-         "\nStdout has only key=value lines: one per violation, one per judge, then the totals. Failing "
-         "scenes\n"
-         "go to stderr as programs.\n"
-         "Exit codes: 0 no violation, or none above --limits, 1 violations, 2 wrong usage.";
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
+  using naiad::StoreText, naiad::typedOption;
   Settings settings;
+  std::optional<std::uint64_t> seed;
   const std::vector<naiad::Option> options = {
-      naiad::typedOption("--seed", "N", naiad::StoreText([&](const std::string& text) {
-                           settings.seed = std::strtoull(text.c_str(), nullptr, 10);
-                           return std::string();
-                         }),
-                         "Seed of the first scene; the next scenes have the next seeds (default: 1)"),
+      {"--seed", &seed, "Seed of the first scene; the next scenes have the next seeds (default: 1)"},
       {"--scenes", &settings.scenes, "Number of scenes"},
       {"--seconds", &settings.seconds, "Time limit, if --scenes is not given (default: 10)"},
       {"--shrink", &settings.shrink,
        "Number of failing scenes, above --limits, to shrink and print (default: 3)"},
-      naiad::typedOption("--only", "JUDGE", naiad::StoreText([&](const std::string& text) {
-                           return storeJudge(text, settings);
-                         }),
-                         "Ask only this judge"),
+      typedOption("--only", "JUDGE", StoreText([&](auto& text) { return storeJudge(text, settings); }),
+                  "Ask only this judge"),
       {"--scene", &settings.scene, "Print this scene as a program, with --only shrunk, and its judgements"},
-      naiad::typedOption("--limits", "LIMITS", naiad::StoreText([&](const std::string& text) {
-                           return storeLimits(text, settings);
-                         }),
-                         "Allowed violations per judge, such as \"gain=2 overlap=1\" (default: none)")};
+      typedOption("--limits", "LIMITS", StoreText([&](auto& text) { return storeLimits(text, settings); }),
+                  "Allowed violations per judge, such as \"gain=2 overlap=1\" (default: none)")};
+  std::string footer = "Judges (docs/physics/lab.md):";
+  for (const Judge& judge : hunt::judges()) footer += " " + judge.name;
+  footer +=
+      "\n\nStdout has only key=value lines: one per violation, one per judge, then the totals. Failing "
+      "scenes\n"
+      "go to stderr as programs.\n"
+      "Exit codes: 0 no violation, or none above --limits, 1 violations, 2 wrong usage.";
   const naiad::Program program{"naiad_hunt", "Hunts for scenes of bodies in which an invariant fails",
-                               judgesHelp()};
+                               footer};
   if (const auto code = naiad::exitCodeOf(naiad::parseOptions(program, options, argc, argv))) return *code;
-  if (settings.seconds <= 0) settings.seconds = kDefaultSeconds;
-  secondsSinceStart();
+  settings.seed = seed.value_or(settings.seed);
   for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGALRM}) ::signal(signal, onCrash);
   return settings.scene ? showScene(settings) : Hunt(settings).run();
 }

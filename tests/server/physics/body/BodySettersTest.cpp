@@ -25,173 +25,99 @@ class Breeze : public Field {
 
 // A scene of at most two dynamic bodies.
 struct Scene {
+  bool turning = false;
   std::vector<Body*> bodies;
   std::vector<Object*> obstacles;
   std::vector<Joint> joints;
 
-  Body* add(Body* p_body, bool turning = false) {
+  Body* add(Body* p_body) {
     if (turning) p_body->setTurning();
     bodies.push_back(p_body);
     return p_body;
   }
-  Object* floor() {
-    obstacles.push_back(PhysicsWorld::wall(Vector(0, 5), Vector(50, 5)));
-    return obstacles.back();
+  Body* crate(double x, double y, double mass = 1) {
+    return add(PhysicsWorld::crate(Vector(x, y), Vector(0.5, 0.5), mass));
   }
+  Body* ball(double y) { return add(PhysicsWorld::ball(Vector(0, y), Vector(3, 0))); }
+  void wall(double x, double y, double half_width) {
+    obstacles.push_back(PhysicsWorld::wall(Vector(x, y), Vector(half_width, 5)));
+  }
+  Joint& add(Joint joint) { return joints.emplace_back(joint); }
 };
 
 struct Situation {
   const char* name;
-  void (*build)(Scene& scene, bool turning);
+  bool has_floor;
+  void (*build)(Scene& s);
 };
 
 constexpr double kG = 0.01;
-
-Body* crateAt(Scene& s, double x, double y, bool turning, double mass = 1) {
-  return s.add(PhysicsWorld::crate(Vector(x, y), Vector(0.5, 0.5), mass), turning);
-}
+const Vector kOrigin(0, 0);
 
 const Situation kSituations[] = {
-    {"rest",
-     [](Scene& s, bool turning) {
-       s.floor();
-       PM.setGravity(Vector(0, kG));
-       crateAt(s, 0, -0.5, turning);
-     }},
-    {"slope",
-     [](Scene& s, bool turning) {
-       s.floor();
-       PM.setGravity(Vector(0.003, kG));
-       crateAt(s, 0, -0.5, turning);
-     }},
-    {"slide",
-     [](Scene& s, bool turning) {
-       s.floor();
-       PM.setGravity(Vector(0, kG));
-       crateAt(s, 0, -0.5, turning)->setVelocity(Vector(0.3, 0));
-     }},
-    {"stack",
-     [](Scene& s, bool turning) {
-       s.floor();
-       PM.setGravity(Vector(0, kG));
-       crateAt(s, 0, -0.5, turning);
-       crateAt(s, 0.1, -1.5, turning, 2);
-     }},
-    {"lift",
-     [](Scene& s, bool turning) {
-       PM.setGravity(Vector(0, kG));
+    {"rest", true, [](Scene& s) { s.crate(0, -0.5); }},
+    {"slope", true, [](Scene& s) { PM.setGravity(Vector(0.003, kG)), s.crate(0, -0.5); }},
+    {"slide", true, [](Scene& s) { s.crate(0, -0.5)->setVelocity(Vector(0.3, 0)); }},
+    {"stack", true, [](Scene& s) { s.crate(0, -0.5), s.crate(0.1, -1.5, 2); }},
+    {"lift", false,
+     [](Scene& s) {
        Body* p_lift = PhysicsWorld::crate(Vector(0, 0.5), Vector(4, 0.5));
        p_lift->setKinematic();
        p_lift->setVelocity(Vector(0.02, -0.01));
-       crateAt(s, 0, -0.5, turning);
-       s.add(p_lift);
+       s.crate(0, -0.5);
+       s.bodies.push_back(p_lift);
      }},
-    {"roll",
-     [](Scene& s, bool turning) {
-       s.floor();
-       PM.setGravity(Vector(0, kG));
-       Body* p_ball = s.add(PhysicsWorld::ball(Vector(0, -0.5), Vector(3, 0)), turning);
-       p_ball->setFriction(0.5);
-       p_ball->setRestitution(0);
+    {"roll", true, [](Scene& s) { s.ball(-0.5)->setFriction(0.5), s.bodies[0]->setRestitution(0); }},
+    {"bounce", true, [](Scene& s) { s.ball(-2)->setFriction(0.3); }},
+    {"corner", true,
+     [](Scene& s) { s.wall(1.5, -5, 1), PM.setGravity(Vector(0.008, kG)), s.crate(0, -0.5); }},
+    {"meet", false,
+     [](Scene& s) {
+       PM.setGravity(Vector());
+       s.crate(0, 0)->setVelocity(Vector(0.1, 0));
+       s.crate(1.5, 0.2);
      }},
-    {"bounce",
-     [](Scene& s, bool turning) {
-       s.floor();
-       PM.setGravity(Vector(0, kG));
-       s.add(PhysicsWorld::ball(Vector(0, -2), Vector(3, 0)), turning)->setFriction(0.3);
+    {"sprung", true, [](Scene& s) { s.crate(0, -0.5)->setSpring(Vector(2, -0.5), 0.02, 0.05); }},
+    {"hinge", false, [](Scene& s) { s.add(PM.addHinge(nullptr, s.crate(2, 0), kOrigin)); }},
+    {"hung", false, [](Scene& s) { s.add(PM.addHinge(nullptr, s.crate(0, 2), kOrigin)); }},
+    {"rods", false,
+     [](Scene& s) {
+       Body *p_a = s.crate(2, 0), *p_b = s.crate(4, 0);
+       s.add(PM.addDistance(nullptr, p_a, kOrigin, Vector(2, 0)));
+       s.add(PM.addDistance(p_a, p_b));
      }},
-    {"corner",
-     [](Scene& s, bool turning) {
-       s.floor();
-       s.obstacles.push_back(PhysicsWorld::wall(Vector(1.5, -5), Vector(1, 5)));
-       PM.setGravity(Vector(0.008, kG));
-       crateAt(s, 0, -0.5, turning);
+    {"rope", false, [](Scene& s) { s.add(PM.addRope(nullptr, s.crate(1, 1), kOrigin, Vector(1, 1))); }},
+    {"weld", true,
+     [](Scene& s) {
+       Body *p_a = s.crate(0, -3.5), *p_b = s.crate(1, -3.5);
+       s.add(PM.addWeld(p_a, p_b, Vector(0.5, -3.5)));
      }},
-    {"meet",
-     [](Scene& s, bool turning) {
-       crateAt(s, 0, 0, turning)->setVelocity(Vector(0.1, 0));
-       crateAt(s, 1.5, 0.2, turning);
+    {"slider", false, [](Scene& s) { s.add(PM.addSlider(nullptr, s.crate(0, 0), kOrigin, Vector(1, 0.5))); }},
+    {"spring", false,
+     [](Scene& s) {
+       Body *p_a = s.crate(2, 0), *p_b = s.crate(5, 0);
+       s.add(PM.addSpring(nullptr, p_a, kOrigin, Vector(2.2, 0.1), 0.1, 0.02));
+       s.add(PM.addSpring(p_a, p_b, 0.2));
      }},
-    {"sprung",
-     [](Scene& s, bool turning) {
-       s.floor();
-       PM.setGravity(Vector(0, kG));
-       crateAt(s, 0, -0.5, turning)->setSpring(Vector(2, -0.5), 0.02, 0.05);
+    {"motor", false,
+     [](Scene& s) {
+       s.add(PM.addMotor(nullptr, s.crate(0.5, 0), 0.05, 0.02));
+       s.add(PM.addHinge(nullptr, s.bodies[0], kOrigin));
      }},
-    {"hinge",
-     [](Scene& s, bool turning) {
-       PM.setGravity(Vector(0, kG));
-       Body* p_bob = crateAt(s, 2, 0, turning);
-       s.joints.push_back(PM.addHinge(nullptr, p_bob, Vector(0, 0)));
+    {"limit", false,
+     [](Scene& s) {
+       s.add(PM.addAngleLimit(nullptr, s.crate(1, 0), -0.1, 0.4));
+       s.add(PM.addHinge(nullptr, s.bodies[0], kOrigin));
      }},
-    {"hung",
-     [](Scene& s, bool turning) {
-       PM.setGravity(Vector(0, kG));
-       Body* p_bob = crateAt(s, 0, 2, turning);
-       s.joints.push_back(PM.addHinge(nullptr, p_bob, Vector(0, 0)));
+    {"mouse", true,
+     [](Scene& s) {
+       s.add(PM.addMouse(s.crate(0, -0.5), Vector(0.3, -0.7), 0.05)).setTarget(Vector(1, -3));
      }},
-    {"rods",
-     [](Scene& s, bool turning) {
-       PM.setGravity(Vector(0, kG));
-       Body *p_a = crateAt(s, 2, 0, turning), *p_b = crateAt(s, 4, 0, turning);
-       s.joints.push_back(PM.addDistance(nullptr, p_a, Vector(0, 0), Vector(2, 0)));
-       s.joints.push_back(PM.addDistance(p_a, p_b));
-     }},
-    {"rope",
-     [](Scene& s, bool turning) {
-       PM.setGravity(Vector(0, kG));
-       Body* p_bob = crateAt(s, 1, 1, turning);
-       s.joints.push_back(PM.addRope(nullptr, p_bob, Vector(0, 0), Vector(1, 1)));
-     }},
-    {"weld",
-     [](Scene& s, bool turning) {
-       PM.setGravity(Vector(0, kG));
-       s.floor();
-       Body *p_a = crateAt(s, 0, -3.5, turning), *p_b = crateAt(s, 1, -3.5, turning);
-       s.joints.push_back(PM.addWeld(p_a, p_b, Vector(0.5, -3.5)));
-     }},
-    {"slider",
-     [](Scene& s, bool turning) {
-       PM.setGravity(Vector(0, kG));
-       Body* p_a = crateAt(s, 0, 0, turning);
-       s.joints.push_back(PM.addSlider(nullptr, p_a, Vector(0, 0), Vector(1, 0.5)));
-     }},
-    {"spring",
-     [](Scene& s, bool turning) {
-       PM.setGravity(Vector(0, kG));
-       Body *p_a = crateAt(s, 2, 0, turning), *p_b = crateAt(s, 5, 0, turning);
-       s.joints.push_back(PM.addSpring(nullptr, p_a, Vector(0, 0), Vector(2.2, 0.1), 0.1, 0.02));
-       s.joints.push_back(PM.addSpring(p_a, p_b, 0.2));
-     }},
-    {"motor",
-     [](Scene& s, bool turning) {
-       PM.setGravity(Vector(0, kG));
-       Body* p_arm = crateAt(s, 0.5, 0, turning);
-       s.joints.push_back(PM.addMotor(nullptr, p_arm, 0.05, 0.02));
-       s.joints.push_back(PM.addHinge(nullptr, p_arm, Vector(0, 0)));
-     }},
-    {"limit",
-     [](Scene& s, bool turning) {
-       PM.setGravity(Vector(0, kG));
-       Body* p_arm = crateAt(s, 1, 0, turning);
-       s.joints.push_back(PM.addAngleLimit(nullptr, p_arm, -0.1, 0.4));
-       s.joints.push_back(PM.addHinge(nullptr, p_arm, Vector(0, 0)));
-     }},
-    {"mouse",
-     [](Scene& s, bool turning) {
-       s.floor();
-       PM.setGravity(Vector(0, kG));
-       Body* p_body = crateAt(s, 0, -0.5, turning);
-       s.joints.push_back(PM.addMouse(p_body, Vector(0.3, -0.7), 0.05));
-       s.joints.back().setTarget(Vector(1, -3));
-     }},
-    {"tow",
-     [](Scene& s, bool turning) {
-       s.floor();
-       PM.setGravity(Vector(0, kG));
-       Body *p_a = crateAt(s, 0, -0.5, turning), *p_b = crateAt(s, 3, -0.5, turning);
+    {"tow", true,
+     [](Scene& s) {
+       Body *p_a = s.crate(0, -0.5), *p_b = s.crate(3, -0.5);
        p_b->setVelocity(Vector(0.2, 0));
-       s.joints.push_back(PM.addRope(p_a, p_b));
+       s.add(PM.addRope(p_a, p_b));
      }},
 };
 
@@ -344,17 +270,11 @@ const std::vector<Setter>& setters() {
   return kAll;
 }
 
-using State = std::array<double, 6>;
-
-State stateOf(const Body* p_body) {
-  const Vector place = p_body->getPosition(), velocity = p_body->getVelocity();
-  return {place.x(), place.y(), velocity.x(), velocity.y(), p_body->getAngle(), p_body->getSpin()};
-}
-
-double distanceOf(const State& a, const State& b) {
+double distanceOf(const Body* p_a, const Body* p_b) {
   double most = 0;
+  const BodyBits a = stateBits(p_a), b = stateBits(p_b);
   for (std::size_t i = 0; i < a.size(); ++i) {
-    double d = std::fabs(a[i] - b[i]);
+    double d = std::fabs(std::bit_cast<double>(a[i]) - std::bit_cast<double>(b[i]));
     if (i == 4 && d > 3) d = std::fabs(d - 6.283185307179586);
     most = std::max(most, d == d ? d : 1e300);
   }
@@ -368,7 +288,10 @@ class Trial {
  public:
   Trial(const Situation& situation, bool turning, bool fast) {
     if (fast) PM.setAccuracy(ACCURACY_FAST);
-    situation.build(scene, turning);
+    scene.turning = turning;
+    if (situation.has_floor) scene.wall(0, 5, 50);
+    PM.setGravity(Vector(0, kG));
+    situation.build(scene);
   }
   void ticks(int n) {
     for (int i = 0; i < n; ++i) own.world.update();
@@ -407,7 +330,7 @@ double compare(const Situation& situation, bool turning, bool fast, int before, 
     first.ticks(1);
     second.ticks(1);
     for (std::size_t i = 0; i < first.scene.bodies.size(); ++i)
-      most = std::max(most, distanceOf(stateOf(first.scene.bodies[i]), stateOf(second.scene.bodies[i])));
+      most = std::max(most, distanceOf(first.scene.bodies[i], second.scene.bodies[i]));
   }
   return most;
 }

@@ -68,5 +68,21 @@ TEST(BodyTouching, MatchesAPlainListOfContacts) {
   EXPECT_GT(touched, 1000);
 }
 
+// A body that bounces fast may change its solver in each tick.
+TEST(BodyTouching, RepeatedHandOversEndAContact) {
+  BodyContacts contacts;
+  const df::ObjectKey first = {0, 1}, second = {1, 1};
+  contacts.add(contactOf(first, second, true));
+  contacts.finishTick();
+  std::size_t ends = 0;
+  for (int tick = 0; tick < 5; ++tick) {
+    contacts.beginTick();
+    contacts.handOver(first);
+    ends += contacts.finishTick().size();
+  }
+  EXPECT_EQ(ends, 1u);
+  EXPECT_FALSE(contacts.isTouching(second));
+}
+
 }  // namespace
 }  // namespace naiad::physics
