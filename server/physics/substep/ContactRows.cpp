@@ -137,6 +137,23 @@ double ContactRows::workOf(const Driven& driven) const {
   return work;
 }
 
+void ContactRows::scale(std::span<const float> factors) {
+  for (Block& k : m_blocks) {
+    for (int lane = 0; lane < k.count; ++lane) {
+      const bool moves_a = k.inverse_mass_a[lane] + k.inverse_inertia_a[lane] > 0;
+      const float by = factors[at(moves_a ? k.a[at(lane)] : k.b[at(lane)])];
+      if (by == 1) continue;
+      for (Point& p : k.point) {
+        p.total[lane] -= (1 - by) * p.normal.now[lane];
+        for (Impulse* const p_impulse : {&p.normal, &p.friction}) {
+          p_impulse->now[lane] *= by;
+          p_impulse->trend[lane] *= by;
+        }
+      }
+    }
+  }
+}
+
 void ContactRows::finishBlock() {
   const Lanes zero = {}, one = lanesOf(1);
   Block& k = m_blocks.back();

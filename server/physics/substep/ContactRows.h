@@ -83,6 +83,8 @@ class ContactRows {
   void visitWork(Visit visit) const {
     for (const Driven& driven : m_driven) visit(driven.state, workOf(driven));
   }
+  /// Multiplies the impulses of each contact by the factor of its movable body's state.
+  void scale(std::span<const float> factors);
   /// Call after the last sub-step: returns the result, and sets `known` for the next step.
   ContactPush read(std::int32_t row, KnownImpulses& known) const;
   std::size_t blocks() const { return m_blocks.size(); }

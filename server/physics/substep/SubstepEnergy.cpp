@@ -7,8 +7,10 @@ namespace naiad::physics {
 
 namespace {
 
+constexpr double kRounding = 1e-4;       // factors nearer to 1 do not change the impulses kept
 constexpr double kConsiderable = 0.999;  // smaller factors are counted, unless they only undo rounding
-constexpr double kUlps = 6e-8;           // rounding of a float, as a part of its size
+constexpr double kOutside = 1e-5;  // a larger change of momentum, as a part of the impulses, is from outside
+constexpr double kUlps = 6e-8;     // rounding of a float, as a part of its size
 
 }  // namespace
 
@@ -19,6 +21,7 @@ void SubstepEnergy::begin(std::size_t states) {
   m_places.resize(states);
   m_groups.resize(states);
   m_marks.assign(states, 0);
+  m_factors.assign(states, 1);
 }
 
 void SubstepEnergy::set(std::int32_t state, const RigidBody& body, double mass, double inertia,
@@ -77,62 +80,93 @@ bool SubstepEnergy::judge(bool is_bounce) {
     group.over = (m_marks[at(root)] & kIgnored) != 0 ? 0 : group.gain - (is_bounce ? group.lost : 0);
     is_any = is_any || group.over > 0;
     if (group.gain < 0) group.lost -= group.gain;
-    group.gain = 0;
   }
   return is_any;
 }
 
-// Finds the motion that the members would have as one rigid body, with the group's momentum and angular
-// momentum. A group that something immovable touches has none.
-void SubstepEnergy::findRigidMotion(std::span<const SubstepState> states, double time) {
-  const auto visitFree = [&](auto visit) {
-    for (const std::int32_t id : m_ids) {
-      const Member& m = m_members[at(id)];
-      Group& group = m_groups[at(m.group)];
-      if (group.over <= 0 || (m_marks[at(m.group)] & kHeld) != 0) continue;
-      visit(group, m, placeOf(id, states, time), motionOf(id, states));
-    }
-  };
-  for (const std::int32_t root : m_roots) m_groups[at(root)].rigid = {};
-  visitFree([](Group& group, const Member& m, Vec2 place, const Motion& motion) {
-    group.rigid.mass += m.mass;
-    group.rigid.middle += m.mass * place;
-    group.rigid.velocity += m.mass * motion.velocity;
-  });
-  for (const std::int32_t root : m_roots) {
-    Rigid& rigid = m_groups[at(root)].rigid;
-    if (rigid.mass == 0) continue;
-    rigid.middle = rigid.middle / rigid.mass;
-    rigid.velocity = rigid.velocity / rigid.mass;
-  }
-  visitFree([](Group& group, const Member& m, Vec2 place, const Motion& motion) {
-    const Vec2 arm = place - group.rigid.middle;
-    group.rigid.inertia += m.inertia + m.mass * lengthSquared(arm);
-    group.rigid.spin += m.inertia * motion.spin + m.mass * cross(arm, motion.velocity - group.rigid.velocity);
-  });
-  for (const std::int32_t root : m_roots) {
-    Rigid& rigid = m_groups[at(root)].rigid;
-    if (rigid.inertia > 0) rigid.spin /= rigid.inertia;
+template <class Visit>
+void SubstepEnergy::visitOver(Visit visit) {
+  for (const std::int32_t id : m_ids) {
+    const Member& m = m_members[at(id)];
+    Group& group = m_groups[at(m.group)];
+    if (group.over > 0) visit(id, m, group);
   }
 }
 
-// Slows the members of groups that gained too much, relative to their rigid motion.
-void SubstepEnergy::slow(std::span<SubstepState> states, double time) {
-  findRigidMotion(states, time);
-  const auto visit = [&](auto of_member) {
-    for (const std::int32_t id : m_ids) {
-      const Member& m = m_members[at(id)];
-      Group& group = m_groups[at(m.group)];
-      if (group.over <= 0) continue;
-      Motion off = motionOf(id, states);
-      const Vec2 arm = placeOf(id, states, time) - group.rigid.middle;
-      off.velocity -= group.rigid.velocity + cross(group.rigid.spin, arm);
-      off.spin -= group.rigid.spin;
-      of_member(id, m, group, off);
-    }
+// Finds the motions that the groups would have as rigid bodies, before and after the stage; none for a group
+// with joints, or whose momentum something immovable changed.
+void SubstepEnergy::findRigidMotions(std::span<const SubstepState> states, double time) {
+  for (const std::int32_t root : m_roots) m_groups[at(root)].rigid = {};
+  visitOver([&](std::int32_t id, const Member& m, Group& group) {
+    Rigid& rigid = group.rigid;
+    if ((m_marks[at(m.group)] & kJointed) != 0) return;
+    const Lanes change = speedsOf(states[at(id)]) - m.before;
+    rigid.pushed += m.mass * double{std::fabs(change[0]) + std::fabs(change[1])};
+    rigid.mass += m.mass;
+    rigid.middle += m.mass * placeOf(id, states, time);
+    rigid.before.velocity += m.mass * motionOf(id, m.before).velocity;
+    rigid.after.velocity += m.mass * motionOf(id, speedsOf(states[at(id)])).velocity;
+  });
+  for (const std::int32_t root : m_roots) {
+    Rigid& rigid = m_groups[at(root)].rigid;
+    const Vec2 outside = rigid.after.velocity - rigid.before.velocity;
+    if (length(outside) > kOutside * rigid.pushed) rigid = {};
+    if (!(rigid.mass > 0)) continue;
+    for (Vec2* const p_sum : {&rigid.middle, &rigid.before.velocity, &rigid.after.velocity})
+      *p_sum = *p_sum / rigid.mass;
+  }
+  visitOver([&](std::int32_t id, const Member& m, Group& group) {
+    Rigid& rigid = group.rigid;
+    if (rigid.mass == 0) return;
+    const Vec2 arm = placeOf(id, states, time) - rigid.middle;
+    const auto angular = [&](const Motion& its, Vec2 middle) {
+      return m.inertia * its.spin + m.mass * cross(arm, its.velocity - middle);
+    };
+    rigid.inertia += m.inertia + m.mass * lengthSquared(arm);
+    rigid.before.spin += angular(motionOf(id, m.before), rigid.before.velocity);
+    rigid.after.spin += angular(motionOf(id, speedsOf(states[at(id)])), rigid.after.velocity);
+  });
+  for (const std::int32_t root : m_roots) {
+    Rigid& rigid = m_groups[at(root)].rigid;
+    const double by = rigid.inertia > 0 ? 1 / rigid.inertia : 0;
+    rigid.before.spin *= by, rigid.after.spin *= by;
+  }
+}
+
+// Returns the factor for the velocities relative to the rigid motion; for the velocity changes if joints are
+// in the group.
+double SubstepEnergy::factorOf(const Group& group, bool is_jointed, bool is_bounce) {
+  if (is_jointed) {  // with the factor f, the group gains c + b·f + a/2·f²
+    const double a = group.twice, c = is_bounce ? -group.lost : -group.given;
+    const double b = group.gain - (is_bounce ? 0 : c) - 0.5 * a;
+    const double factor = a > 0 ? (std::sqrt(std::max(b * b - 2 * a * c, 0.0)) - b) / a : 0;
+    return factor > 0 ? std::min(factor, 1.0) : 0;
+  }
+  const Rigid& rigid = group.rigid;
+  const auto twice = [&](const Motion& of) {
+    return rigid.mass * lengthSquared(of.velocity) + rigid.inertia * of.spin * of.spin;
+  };
+  const double less = 2 * group.over + twice(rigid.before) - twice(rigid.after);
+  return group.twice > 0 ? std::sqrt(std::clamp(1 - less / group.twice, 0.0, 1.0)) : 1;
+}
+
+// Slows the members of groups that gained too much.
+void SubstepEnergy::slow(std::span<SubstepState> states, double time, bool is_bounce) {
+  findRigidMotions(states, time);
+  const auto isJointed = [&](std::int32_t root) { return (m_marks[at(root)] & kJointed) != 0; };
+  const auto arm = [&](std::int32_t id, const Group& group) {
+    return placeOf(id, states, time) - group.rigid.middle;
+  };
+  // Returns the velocity change if joints are in the group, else the motion relative to its rigid motion.
+  const auto offOf = [&](std::int32_t id, const Member& m, const Group& group) -> Motion {
+    const Lanes now = speedsOf(states[at(id)]), change = now - m.before;
+    if (isJointed(m.group)) return {{change[0], change[1]}, change[2]};
+    const Motion &rigid = group.rigid.after, its = motionOf(id, now);
+    return {its.velocity - rigid.velocity - cross(rigid.spin, arm(id, group)), its.spin - rigid.spin};
   };
   for (const std::int32_t root : m_roots) m_groups[at(root)].twice = m_groups[at(root)].rounding = 0;
-  visit([&](std::int32_t id, const Member& m, Group& group, const Motion& off) {
+  visitOver([&](std::int32_t id, const Member& m, Group& group) {
+    const Motion off = offOf(id, m, group);
     group.twice += m.mass * lengthSquared(off.velocity) + m.inertia * off.spin * off.spin;
     const Lanes change = speedsOf(states[at(id)]) - m.before;
     const double gained =
@@ -141,30 +175,36 @@ void SubstepEnergy::slow(std::span<SubstepState> states, double time) {
   });
   for (const std::int32_t root : m_roots) {
     Group& group = m_groups[at(root)];
-    if (group.over <= 0) continue;
-    group.factor = group.twice > 0 ? std::sqrt(std::max(1 - 2 * group.over / group.twice, 0.0)) : 1;
+    if (!(group.over > 0)) continue;
+    group.factor = factorOf(group, isJointed(root), is_bounce);
     if (group.factor >= kConsiderable) continue;
     // A light body takes energy from a much heavier one, whose velocity is too coarse to show it.
-    if (group.over <= group.rounding) {
-      group.factor = 1;
-    } else {
-      ++m_scaled;
-    }
+    const bool is_rounding = group.over <= group.rounding;
+    if (is_rounding) group.over = 0;
+    if (!is_rounding) ++m_scaled;
   }
-  visit([&](std::int32_t id, const Member& m, const Group& group, const Motion& off) {
+  visitOver([&](std::int32_t id, const Member& m, const Group& group) {
+    const Motion off = offOf(id, m, group);
+    const Rigid& rigid = group.rigid;
+    const double less = 1 - group.factor, turn = rigid.before.spin - rigid.after.spin;
+    const Vec2 velocity =
+        rigid.before.velocity - rigid.after.velocity + cross(turn, arm(id, group)) - less * off.velocity;
     SubstepState& s = states[at(id)];
-    const double less = 1 - group.factor;
-    if (m.mass > 0) {
-      s.vx -= static_cast<float>(less * off.velocity.x);
-      s.vy -= static_cast<float>(less * off.velocity.y);
-    }
-    if (m.inertia > 0) s.spin -= static_cast<float>(less * off.spin);
+    if (m.mass > 0) s.vx += static_cast<float>(velocity.x), s.vy += static_cast<float>(velocity.y);
+    if (m.inertia > 0) s.spin += static_cast<float>(turn - less * off.spin);
+    if (!isJointed(m.group) || group.factor > 1 - kRounding) return;
+    m_factors[at(id)] = static_cast<float>(group.factor);
+    m_has_factors = true;
   });
 }
 
-void SubstepEnergy::balance(std::span<SubstepState> states, double time, bool is_bounce) {
+bool SubstepEnergy::balance(std::span<SubstepState> states, double time, bool is_bounce) {
   sum(states);
-  if (judge(is_bounce)) slow(states, time);
+  if (m_has_factors) std::fill(m_factors.begin(), m_factors.end(), 1.0f);
+  m_has_factors = false;
+  if (judge(is_bounce)) slow(states, time, is_bounce);
+  for (const std::int32_t root : m_roots) m_groups[at(root)].gain = m_groups[at(root)].given = 0;
+  return m_has_factors;
 }
 
 }  // namespace naiad::physics

@@ -2,10 +2,11 @@
 //
 // Impulses known from the last sub-step, the push that undoes overlap, and restitution may all leave a group
 // with more energy than it had. If so, its bodies are slowed by one factor relative to the motion that they
-// would have as one rigid body; if something immovable touches the group, relative to the world. This keeps
-// momentum and angular momentum, and what was at rest relatively stays so: contacts do not approach again,
-// and joints stay closed. (To scale the impulses instead would take the support from under a pile.) Each
-// group is checked alone, in its own frame, so that groups do not influence each other.
+// would have as one rigid body with the momentum and angular momentum from before; if something immovable
+// pushed the group, relative to the world. So contacts do not approach again, and the impulses that carry a
+// pile remain. In a group with joints, the light bodies may gain what a heavy one loses, so there all
+// velocity changes of the stage are multiplied by one factor. Each group is checked alone, in its own frame,
+// so that groups do not influence each other.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +27,8 @@ class SubstepEnergy {
   /// Marks a body that touches or is joined to an immovable one. The group's frame is then the world's.
   void hold(std::int32_t state) { m_marks[at(state)] |= kWatched | kHeld; }
   bool isWatched(std::int32_t state) const { return m_marks[at(state)] != 0; }
+  /// Marks a body with a joint.
+  void join(std::int32_t state) { m_marks[at(state)] |= kWatched | kJointed; }
   /// Excludes the body's group, because it is in a crowd, from which only speed frees the bodies.
   void ignore(std::int32_t state) { m_marks[at(state)] |= kIgnored; }
   /// Sets a body's motion, mass, inertia and group, which is the lowest state of its members. Call for all
@@ -43,34 +46,42 @@ class SubstepEnergy {
   void note(std::span<const SubstepState> states) {
     for (const std::int32_t id : m_ids) note(id, speedsOf(states[at(id)]));
   }
-  /// Adds energy given to the group of this body in this stage, by drivers, springs or magnets.
-  void give(std::int32_t state, double work) { m_groups[at(groupOf(state))].gain -= work; }
-  /// Ends a stage, at this time since the step began: slows the groups that gained energy. In a bounce, a
-  /// group may gain what its earlier impulses in this step took away.
-  void balance(std::span<SubstepState> states, double time, bool is_bounce);
+  /// Adds energy given to the group of this body in this stage, by impulses or from springs.
+  void giveByImpulses(std::int32_t state, double work) { m_groups[at(groupOf(state))].gain -= work; }
+  void giveFromSprings(std::int32_t state, double work) {
+    m_groups[at(groupOf(state))].gain -= work;
+    m_groups[at(groupOf(state))].given += work;
+  }
+  /// Ends a stage, at this time since the step began: slows the groups that gained energy. Returns true if
+  /// factors() are not all 1. In a bounce, a group may gain what its earlier impulses in this step took away.
+  bool balance(std::span<SubstepState> states, double time, bool is_bounce);
+  /// Returns the factors of velocity changes in the last balance(), by state.
+  std::span<const float> factors() const { return m_factors; }
   /// Returns how many groups gained considerable energy, since construction.
   std::int64_t scaled() const { return m_scaled; }
 
  private:
+  struct Motion {
+    Vec2 velocity;
+    double spin = 0;
+  };
   struct Rigid {  // motion of a group as one rigid body
     double mass = 0, inertia = 0;
-    Vec2 middle, velocity;
-    double spin = 0;
+    double pushed = 0;  // sum of the impulses on the bodies in this stage
+    Vec2 middle;
+    Motion before, after;  // before and after this stage
   };
   struct Group {
     double gain = 0;      // energy gained in this stage beyond what was given
     double over = 0;      // gain that it may not have
+    double given = 0;     // energy given by springs in this stage
     double lost = 0;      // energy taken by impulses in this step
-    double twice = 0;     // twice its energy relative to its rigid motion
+    double twice = 0;     // twice the energy of the motion that is slowed
     double rounding = 0;  // largest rounding error of the gain
     double factor = 1;
     Rigid rigid;
   };
-  struct Motion {
-    Vec2 velocity;
-    double spin;
-  };
-  static constexpr std::uint8_t kWatched = 1, kHeld = 2, kIgnored = 4;
+  static constexpr std::uint8_t kWatched = 1, kHeld = 2, kIgnored = 4, kJointed = 8;
   struct alignas(64) Member {
     Lanes before = {};  // gained velocity and spin before the impulses of this stage
     Lanes twice = {};   // twice the velocity at the start of the step, in the group's frame
@@ -83,10 +94,9 @@ class SubstepEnergy {
     return speeds;
   }
   std::int32_t groupOf(std::int32_t state) const { return m_members[at(state)].group; }
-  // Returns the motion in the group's frame.
-  Motion motionOf(std::int32_t state, std::span<const SubstepState> states) const {
-    const SubstepState& s = states[at(state)];
-    return {m_velocities[at(state)] + Vec2{s.vx, s.vy}, s.spin};
+  // Returns the motion with these gained speeds, in the group's frame.
+  Motion motionOf(std::int32_t state, Lanes speeds) const {
+    return {m_velocities[at(state)] + Vec2{speeds[0], speeds[1]}, speeds[2]};
   }
   // Returns the place in the group's frame, relative to the start of its lowest member.
   Vec2 placeOf(std::int32_t state, std::span<const SubstepState> states, double time) const {
@@ -96,12 +106,17 @@ class SubstepEnergy {
   }
   void sum(std::span<const SubstepState> states);
   bool judge(bool is_bounce);
-  void findRigidMotion(std::span<const SubstepState> states, double time);
-  void slow(std::span<SubstepState> states, double time);
+  template <class Visit>
+  void visitOver(Visit visit);
+  void findRigidMotions(std::span<const SubstepState> states, double time);
+  static double factorOf(const Group& group, bool is_jointed, bool is_bounce);
+  void slow(std::span<SubstepState> states, double time, bool is_bounce);
 
-  std::vector<Member> m_members;      // by state
-  std::vector<Vec2> m_velocities;     // by state
-  std::vector<Place> m_places;        // by state
+  std::vector<Member> m_members;   // by state
+  std::vector<Vec2> m_velocities;  // by state
+  std::vector<Place> m_places;     // by state
+  std::vector<float> m_factors;    // by state
+  bool m_has_factors = false;
   std::vector<std::uint8_t> m_marks;  // by state
   std::vector<Group> m_groups;        // by lowest state
   std::vector<std::int32_t> m_ids;    // watched states of this batch

@@ -297,11 +297,13 @@ void SubstepWorld::stop(Fast& fast) {
     const RigidMotion its = motionOf(other);
     const double nearer = length(fast.path - its.displacement) + rollOf(b) + rollOf(other);
     const double pass = kMaxPass * std::min(b.thickness, other.thickness);
-    if (nearer <= marginOf(b, other) + pass) continue;
+    // A kinematic body pushes on even if the sweeps do not move all that is in its way.
+    const bool is_driver = !isMovable(other) && other.state > 0;
+    if (nearer <= (is_driver ? 0 : marginOf(b, other)) + pass) continue;
     const auto pair = findPair(id, near);
     if (pair != m_pairs.end() && pair->is_jointed) continue;
     const bool is_pushing = pair != m_pairs.end() && pair->is_pushing;
-    if (is_pushing && nearer <= b.margin + other.margin + pass) continue;
+    if (is_pushing && !is_driver && nearer <= b.margin + other.margin + pass) continue;
     const Vec2 offset = other.body.place - b.body.place +
                         (other.state > 0 && other.part < 1 ? other.part * movedBy(other) : Vec2{});
     // Rows keep only the known points apart, and other corners may touch in this step. So a body that is
@@ -319,7 +321,11 @@ void SubstepWorld::stop(Fast& fast) {
   ++m_counters.stopped;
   const std::int32_t number = m_fast_numbers[at(met)];
   Fast* const p_met = number == kSlowNumber || !isMovable(m_bodies[at(met)]) ? nullptr : &m_fast[at(number)];
-  const std::int32_t carrier = p_met != nullptr ? p_met->carrier : isMovable(m_bodies[at(met)]) ? -1 : met;
+  std::int32_t carrier = met;
+  if (isMovable(m_bodies[at(met)])) {
+    carrier = p_met != nullptr ? carrierOf(*p_met) : -1;
+    if (carrier < 0) carrier = carrierOf(fast);
+  }
   if (carrier >= 0 && m_bodies[at(carrier)].state > 0 && carry(fast, carrier, first)) return;
   if (p_met != nullptr && !p_met->is_stopped && advanceTogether(fast, *p_met, first)) return;
   for (Fast* const p_fast : {&fast, p_met}) {  // the fast body that was hit stops, too
@@ -329,6 +335,18 @@ void SubstepWorld::stop(Fast& fast) {
     p_fast->is_stopped = true;
     approachAgain(*p_fast);
   }
+}
+
+// Returns the kinematic body that carries or pushes a fast one; −1 if none.
+std::int32_t SubstepWorld::carrierOf(const Fast& fast) const {
+  if (m_drivers.empty() || fast.carrier >= 0) return fast.carrier;
+  for (std::int32_t i = fast.near; i >= 0; i = m_near[at(i)].next) {
+    const SubstepBody& other = m_bodies[at(m_near[at(i)].id)];
+    if (isMovable(other) || other.state == 0) continue;
+    const auto pair = findPair(fast.id, m_near[at(i)].id);
+    if (pair != m_pairs.end() && pair->is_pushing) return m_near[at(i)].id;
+  }
+  return -1;
 }
 
 // Makes the part of a body that must not pass others.

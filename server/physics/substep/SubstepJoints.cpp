@@ -530,6 +530,22 @@ void SubstepJoints::addStored(Link& link, const std::array<double, 3>& before) c
   for (int k = 0; k < link.count; ++k) link.work += stored(before[at(k)]) - stored(link.value[at(k)]);
 }
 
+void SubstepJoints::scale(std::span<const float> factors, std::span<SubstepState> states, ContactRows& rows) {
+  takeLoads(rows);
+  for (const Link& link : m_links) {
+    if (link.p_system != nullptr) continue;
+    const bool moves_b = link.inverse_mass_b + link.inverse_inertia_b > 0;
+    const float by = factors[at(moves_b ? link.state_b : link.state_a)];
+    if (by == 1) continue;
+    for (int k = 0; k < link.count; ++k) m_rows[at(link.row + k)].impulse *= by;
+    solve(link, states[at(link.state_a)], states[at(link.state_b)], false);
+  }
+  for (auto& [first, system] : m_systems) {
+    if (system.rows.isScaled(factors)) system.rows.solve(states, false);
+  }
+  giveLoads(rows);
+}
+
 int SubstepJoints::end(double dt) {
   int broken = 0;
   for (const Link& link : m_links) {

@@ -57,6 +57,9 @@ class SubstepJoints : public JointStore {
         visit(link.inverse_mass_b + link.inverse_inertia_b > 0 ? link.state_b : link.state_a, link.work);
     }
   }
+  /// Call when velocity changes were multiplied by these factors, by state. Multiplies the impulses kept for
+  /// the next sub-step, too, and stops the speeds along the joints again.
+  void scale(std::span<const float> factors, std::span<SubstepState> states, ContactRows& rows);
   /// Calls visit(a, b) for every joint of this step; a is −1 for a mouse joint.
   template <class Visit>
   void visitLinks(Visit visit) const {

@@ -146,7 +146,7 @@ void SubstepWorld::undoMagnetWork() {
     const Vec2 right = withoutWork(magnet.turn, velocity, kHeld);
     const Vec2 gained = right - b.body.velocity;
     const Vec2 middle = 0.5 * (right + velocity) - (b.body.velocity - m_energy.velocity(b.state));
-    m_energy.give(b.state, m_energy.mass(b.state) * dot(right - velocity, middle));
+    m_energy.giveFromSprings(b.state, m_energy.mass(b.state) * dot(right - velocity, middle));
     s.vx = static_cast<float>(gained.x), s.vy = static_cast<float>(gained.y);
     magnet.given += right - velocity;
   }
@@ -171,13 +171,14 @@ void SubstepWorld::moveStates(std::span<const std::int32_t> states) {
 // Sets the masses and groups of the bodies that impulses may push. chooseColours() has found the groups.
 void SubstepWorld::beginEnergy() {
   const auto watch = [this](const SubstepBody& b, bool is_held) {
-    is_held ? m_energy.hold(b.state) : m_energy.watch(b.state);
+    m_energy.join(b.state);
+    if (is_held) m_energy.hold(b.state);
   };
   m_joints.visitLinks([&](int a, int b) {
     if (a >= 0) watch(m_bodies[at(a)], !isMovable(m_bodies[at(b)]));
     watch(m_bodies[at(b)], a < 0 || !isMovable(m_bodies[at(a)]));
   });
-  for (const Magnet& magnet : m_magnets) m_energy.watch(m_bodies[at(magnet.id)].state);
+  for (const Magnet& magnet : m_magnets) m_energy.hold(m_bodies[at(magnet.id)].state);
   for (const std::int32_t id : m_active) {
     const SubstepBody& b = m_bodies[at(id)];
     if (!m_energy.isWatched(b.state)) continue;
@@ -189,19 +190,20 @@ void SubstepWorld::beginEnergy() {
 
 // Keeps the impulses of this sub-step from adding energy.
 void SubstepWorld::balance(double time) {
-  const auto give = [this](int state, double work) { m_energy.give(state, work); };
-  m_rows.visitWork(give);
-  m_joints.visitWork(give);
-  m_energy.balance(m_states, time, false);
+  m_rows.visitWork([this](int state, double work) { m_energy.giveByImpulses(state, work); });
+  m_joints.visitWork([this](int state, double work) { m_energy.giveFromSprings(state, work); });
+  if (!m_energy.balance(m_states, time, false)) return;
+  m_rows.scale(m_energy.factors());
+  m_joints.scale(m_energy.factors(), m_states, m_rows);
 }
 
 void SubstepWorld::bounce(double time) {
   if (!m_rows.mayBounce()) return;
-  m_rows.visitWork([this](int state, double work) { m_energy.give(state, -work); });
+  m_rows.visitWork([this](int state, double work) { m_energy.giveByImpulses(state, -work); });
   m_energy.note(m_states);
   m_rows.bounce(m_states);
   m_joints.bounce(m_states, m_rows);
-  m_rows.visitWork([this](int state, double work) { m_energy.give(state, work); });
+  m_rows.visitWork([this](int state, double work) { m_energy.giveByImpulses(state, work); });
   m_energy.balance(m_states, time, true);
 }
 

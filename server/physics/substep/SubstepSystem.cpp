@@ -164,6 +164,13 @@ void SubstepSystem::factor(bool is_soft) {
   m_factored_out = m_is_out;
 }
 
+bool SubstepSystem::isScaled(std::span<const float> factors) const {
+  for (std::size_t i = 0; i < m_states.size(); ++i) {
+    if (m_masses[i].inverse_mass + m_masses[i].inverse_inertia > 0) return factors[at(m_states[i])] != 1;
+  }
+  return false;
+}
+
 void SubstepSystem::beginSubstep(std::span<SubstepState> states) {
   load(states);
   for (std::size_t i = 0; i < m_rows.size(); ++i) {

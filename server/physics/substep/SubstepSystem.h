@@ -44,6 +44,9 @@ class SubstepSystem {
   const JointRow& along(int number) const { return m_along[at(m_places[at(number)])]; }
   void place(int number, Vec2 n, double ja, double jb);
 
+  /// True if the factor of any movable body is not 1.
+  bool isScaled(std::span<const float> factors) const;
+
   /// Starts a sub-step: only motors at their maximum torque keep their impulses.
   void beginSubstep(std::span<SubstepState> states);
   /// Solves with springs and biases if `is_soft`, otherwise without.

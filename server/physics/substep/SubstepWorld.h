@@ -239,6 +239,7 @@ class SubstepWorld final : public RigidStepper {
   bool isClear(const SubstepBody& body, std::span<const ConvexShape> shapes, const RigidMotion& motion,
                double time, Vec2 moved, std::int32_t except);
   void stop(Fast& fast);
+  std::int32_t carrierOf(const Fast& fast) const;
   static bool makeCore(const SubstepBody& body, ConvexShape& core);
   bool carry(Fast& fast, std::int32_t carrier, double time);
   void divert(Fast& fast, Vec2 path);

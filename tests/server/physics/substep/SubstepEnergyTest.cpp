@@ -86,6 +86,21 @@ TEST(SubstepEnergy, OverlappingBodiesAtRestStayAtRest) {
   EXPECT_GT(scene.world.counters().scaled, 0);
 }
 
+// The correction of a gain takes speed, not the impulses that carry the pile.
+TEST(SubstepEnergy, TallPyramidStandsAndSleeps) {
+  constexpr int kRows = 60;
+  SubstepScene scene;
+  scene.addFloor();
+  int top = -1;
+  for (int row = 0; row < kRows; ++row) {
+    for (int i = 0; i < kRows - row; ++i) top = scene.addCrate({i - 0.5 * (kRows - row - 1), -0.5 - row});
+  }
+  scene.ticks(150);
+  EXPECT_TRUE(scene.world.isAsleep(top));
+  EXPECT_NEAR(scene.at(top).y, 0.5 - kRows, 0.5);
+  EXPECT_GT(scene.world.counters().scaled, 0);
+}
+
 // A kinematic body does work on what it hits and carries.
 TEST(SubstepEnergy, DriversGiveTheirFullWork) {
   SubstepScene scene(awake());
