@@ -6,6 +6,14 @@
 
 namespace naiad::physics {
 
+namespace {
+
+// Part by which the rotation of a group may exceed its energy in a step. With a given angular momentum, a
+// group that shrinks needs more energy.
+constexpr double kShrunk = 1e-4;
+
+}  // namespace
+
 // Computes the momentum that groups lost by rounding, because float impulses are not exactly equal on both
 // bodies of a contact, and how far sub-steps deviate from a fall without contacts. finish() corrects both for
 // groups that nothing holds.
@@ -86,7 +94,7 @@ void SubstepWorld::keepAngularMomentum() {
     RigidBody& body = m_bodies[at(id)].body;
     const Sums& now = free.after;
     const double inertia = now.inertiaAboutMiddle(), energy = now.twiceEnergyAboutMiddle();
-    const double most = std::sqrt(std::max(inertia * energy, 0.0));
+    const double most = (1 + kShrunk) * std::sqrt(std::max(inertia * energy, 0.0));
     const double found = now.angularAboutMiddle();
     const double kept = std::clamp(free.before.angularAboutMiddle() + m_dt * free.torque, -most, most);
     const double rotation = found / inertia, missing = (kept - found) / inertia;
