@@ -115,6 +115,7 @@ void BlockContacts::change(const Touch& touch, const Part& part, double time, do
 
 void BlockContacts::settle(const WorldStore& store, const Metric& metric, const View& view,
                            const Mover& mover, Touch& touch) {
+  if (!touch.is_new) touch.begin = 0;
   if (mover.key != touch.contact.first || mover.shapes.empty()) {
     touch.body = -1;  // another solver moves it, and finds its contacts
     return;
@@ -216,16 +217,15 @@ void BlockContacts::settle(const WorldStore& store, const Metric& metric, const 
     if (std::none_of(m_found.begin(), m_found.end(), isFound)) change(touch, part, from, 0, false);
   }
   touch.parts = std::move(parts);
-  touch.side = side;
-  touch.stretch = now;
-  touch.pose = end;
+  touch.side = side, touch.stretch = now, touch.pose = end;
   touch.is_new = false;
 }
 
-// True if another contact of the body has this Object.
-bool BlockContacts::isHeld(ObjectKey body, ObjectKey part) const {
+// True if another contact of the body, which lasts and began before this time, has this Object.
+bool BlockContacts::isHeld(ObjectKey body, ObjectKey part, double time) const {
   return std::any_of(m_touches.begin(), m_touches.end(), [&](const Touch& touch) {
     return touch.body >= 0 && touch.contact.first == body && touch.orphaned == 0 && touch.end > 1 &&
+           touch.begin <= time &&
            std::any_of(touch.parts.begin(), touch.parts.end(),
                        [part](const Part& its) { return its.key == part; });
   });
@@ -238,7 +238,8 @@ void BlockContacts::publish(BodyContacts& contacts) {
     touch.body = -1;
   }
   for (const BodyContact& contact : m_changes) {
-    if (contact.is_begin || !(isHeld(contact.first, contact.second) || isHeld(contact.second, contact.first)))
+    if (contact.is_begin || !(isHeld(contact.first, contact.second, contact.time) ||
+                              isHeld(contact.second, contact.first, contact.time)))
       contacts.add(contact);
   }
   m_changes.clear();

@@ -84,7 +84,7 @@ class BlockContacts {
   void findParts(const WorldStore& store, const Metric& metric, const View& view, int side,
                  const Place& origin, Stretch stretch);
   void change(const Touch& touch, const Part& part, double time, double impulse, bool is_begin);
-  bool isHeld(ObjectKey body, ObjectKey part) const;
+  bool isHeld(ObjectKey body, ObjectKey part, double time) const;
   void publish(BodyContacts& contacts);
 
   std::vector<Touch> m_touches;

@@ -88,7 +88,6 @@ void BodyContacts::applyLapses() {
     for (auto lapse = begin; lapse != end; ++lapse) {
       const bool is_its = lapse->key == key && (!lapse->by || *lapse->by == touch.contact.by);
       if (!is_its || (lapse->by && touch.ticks_left > 0)) continue;
-      // A body that changes its solver again does not get more time.
       touch.ticks_left = touch.ticks_left > 0 ? std::min(touch.ticks_left, lapse->ticks) : lapse->ticks;
     }
   };

@@ -34,7 +34,7 @@ class BodyContacts {
   void expire(ObjectKey key) { m_lapses.push_back({key, 1, std::nullopt}); }
   /// Like expire(key), but only for contacts found by this solver.
   void expire(ObjectKey key, BodySolver by) { m_lapses.push_back({key, 1, by}); }
-  /// Call when the body changed its solver: its contacts end soon, unless the new solver finds them.
+  /// Call when the body changed its solver: its contacts end soon, unless a solver finds them first.
   void handOver(ObjectKey key) { m_lapses.push_back({key, kHandOverTicks, std::nullopt}); }
   /// Like handOver(key), for the contact of a body that has stopped being a sensor.
   void handOver(ObjectKey first, ObjectKey second);

@@ -277,6 +277,21 @@ TEST_F(BodyTiles, EachTileHasItsOwnContact) {
   EXPECT_EQ(failures, 0);
 }
 
+// A body that hits a floor and a ceiling of tiles in each tick leaves them in each tick.
+TEST_F(BodyTiles, EachBounceBeginsAndEndsAContact) {
+  PM.setObstacleRestitution(1);
+  tiles(0, 0, 6, 1);
+  tiles(0, -7, 6, 1);
+  auto* p_body = turningCrate<Listener>(Vector(2.5, -3), Vector(.4, .5));
+  p_body->setRestitution(1);
+  p_body->setFriction(0);
+  p_body->setContactEnds();
+  p_body->setVelocity(Vector(0, 10));
+  ticks(10);
+  EXPECT_GE(p_body->begins(), 18);
+  p_body->expectTurns();
+}
+
 // Begin and end events alternate, also in the tick in which a tile moves into its neighbour and the body.
 TEST_F(BodyTiles, EventsAlternateWhenATileMoves) {
   for (int i = 0; i < 400; ++i) {
