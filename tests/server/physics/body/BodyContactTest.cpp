@@ -268,6 +268,14 @@ struct Crowd {
 
   double part() { return ((seed = seed * 1664525 + 1013904223) >> 8) / 16777216.0; }
   int below(int n) { return static_cast<int>(n * part()); }
+  Vector place() {
+    const double x = 10 * part() - 5;
+    return Vector(x, -6 * part());
+  }
+  Vector velocity() {
+    const double x = part() - 0.5;
+    return Vector(x, part() - 0.5);
+  }
   void enter(Object* p_object) { living[numbers[p_object] = next++] = p_object; }
   int numberOf(const Object* p_object) const {
     const auto at = numbers.find(p_object);
@@ -338,7 +346,7 @@ void Crowd::change(Object* p_object) {
       WM.markForDelete(p_object);
       break;
     case 2:
-      p_object->setPosition(Vector(10 * part() - 5, -6 * part()));
+      p_object->setPosition(place());
       break;
     case 3:
     case 4:
@@ -379,9 +387,9 @@ TEST_F(BodyContacts, EveryBeginHasOneEnd) {
           if (crowd.below(2) == 0) p_guest->setTurning();
           if (crowd.below(3) == 0) p_guest->setCircle(0.5);
           if (crowd.below(4) == 0) p_guest->setRestitution(0.8);
-          p_guest->setVelocity(Vector(crowd.part() - 0.5, crowd.part() - 0.5));
+          p_guest->setVelocity(crowd.velocity());
         }
-        p_new->setPosition(Vector(10 * crowd.part() - 5, -6 * crowd.part()));
+        p_new->setPosition(crowd.place());
         if (crowd.below(4) == 0) p_new->setSolidness(SOFT);
       }
       for (int i = crowd.below(3); i > 0; --i) crowd.change(crowd.any());
