@@ -279,15 +279,8 @@ int RigidLinkage::step(std::span<const RigidBody> bodies, std::span<RigidState> 
     }
     if (m_is_conservative) setKinetic(std::max(0.0, kinetic + work(true)), 0, 1);
   }
-  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
-    const Node& node = m_nodes[i];
-    if (!isMovable(m_mass[i])) continue;
-    RigidState& state = states[at(node.body)];
-    state.velocity = node.velocity;
-    state.spin = node.spin;
-    state.displacement = node.displacement;
-    state.turn = node.turn;
-  }
+  giveVelocities(states);
+  givePlaces(states);
   int broken = 0;
   for (const Link& link : m_links) {
     JointStore::Memory& memory = joints.memoryOf(link.id);

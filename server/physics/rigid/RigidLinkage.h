@@ -186,6 +186,7 @@ class RigidLinkage {
   void findSpeedImpulses();
   void projectSpeeds();
   void giveVelocities(std::span<RigidState> states) const;
+  void givePlaces(std::span<RigidState> states) const;
   void giveImpulses(const std::vector<double>& impulse, RigidJoints& joints) const;
   void approximate(double h);
   bool findPlaces(double h, double tolerance);

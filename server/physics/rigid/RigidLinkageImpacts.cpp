@@ -237,8 +237,10 @@ void RigidWorld::applyJoinedImpact(ContactConstraint& c, double time, double h) 
     its.addImpact(m_joints);
   }
   c.is_ballistic = c.restitution > 0 && c.may_fly && !rests;
+  // Bodies that rest on each other do not fall in the rest of the sub-step, unless they fall together.
+  const bool presses = dot(c.normal, m_states[at(c.b)].kick - m_states[at(c.a)].kick) < 0;
   for (const int id : {c.a, c.b}) {
-    if (rests) flightOf(id).bend = {};
+    if (rests && presses) flightOf(id).bend = {};
   }
   m_met_velocities.clear();
   for (const int id : m_met) {

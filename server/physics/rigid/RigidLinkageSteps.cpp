@@ -118,6 +118,10 @@ void RigidLinkage::fit(std::span<RigidState> states) {
     limitMasses();
     if (!tryFit()) return;
   }
+  givePlaces(states);
+}
+
+void RigidLinkage::givePlaces(std::span<RigidState> states) const {
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
     if (!isMovable(m_mass[i])) continue;
     states[at(m_nodes[i].body)].displacement = m_nodes[i].displacement;

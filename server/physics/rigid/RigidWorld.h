@@ -50,7 +50,7 @@ struct ImpactRow {
   double lever_a = 0, lever_b = 0;
   double speed = 0, impulse = 0;
   std::array<double, 4> gain = {};  ///< change of the speed along each row by a unit impulse along this one
-  std::vector<BodyChange> changes;  ///< by a unit impulse
+  std::vector<BodyChange> changes;  ///< changes by a unit impulse
 };
 
 struct RigidOptions {

@@ -80,7 +80,10 @@ class FamilyDraw : public SceneDraw {
     addFloor();
     const int count = 2 + below(5);
     const double spacing = oneOf({1, 1.1, 1.1, 1.5});
-    for (int i = 0; i < count; ++i) addBody({i * spacing, -.5}, box(1, 1)).turning = chance(.9);
+    for (int i = 0; i < count; ++i) {
+      BodyData& crate = addBody({i * spacing, -.5}, box(1, 1));
+      crate.turning = chance(.9);
+    }
     BodyData& heavy = addBody({-3, -2}, chance(.6) ? circle(2) : box(4, 4));
     heavy.mass = oneOf({100, 1e3, 2e3, 5e3, 1e4, 3e4, 1e5, 1e6});
     heavy.turning = chance(.9);
@@ -397,7 +400,10 @@ class FamilyDraw : public SceneDraw {
     const Kind kind = oneOf(kKinds);
     if (kind == Kind::DISTANCE || kind == Kind::ROPE) addLink(kind, a, b, middle);
     if (kind == Kind::WELD) addJoint(kind, a, b, middle);
-    if (kind == Kind::SLIDER) addJoint(kind, a, b, middle).axis = chance(.5) ? Vec2{1, 0} : Vec2{.6, .8};
+    if (kind == Kind::SLIDER) {
+      JointData& slider = addJoint(kind, a, b, middle);
+      slider.axis = chance(.5) ? Vec2{1, 0} : Vec2{.6, .8};
+    }
     if (kind == Kind::SPRING) setSpring(addLink(kind, a, b, middle));
     if (kind == Kind::MOTOR || kind == Kind::LIMIT) addJoint(Kind::HINGE, a, b, middle);
     if (kind == Kind::MOTOR && chance(.3)) {

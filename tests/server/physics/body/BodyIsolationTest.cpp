@@ -191,8 +191,8 @@ TEST(BodyIsolationOfChanges, ChangedStackMovesTheSameBesideManyChangedBodies) {
   EXPECT_EQ(bitsBeside(600), bitsBeside(0));
 }
 
-// A platform is no part of the groups on it. When it moves off, each of them starts again by itself.
-TEST(BodyIsolationOfChanges, StackMovesTheSameBesideOthersOnAPlatformThatMovesOff) {
+// A platform does not connect the groups on it. When it moves off, each of them starts again by itself.
+TEST(BodyIsolationOfChanges, StackMovesTheSameBesideOthersOnAPlatform) {
   const auto bitsBeside = [](int others) {
     OwnWorld own;
     PM.setGravity(Vector(0, 0.01));
