@@ -305,6 +305,7 @@ void SubstepWorld::keepMomentum() {
     group.missing_path += mass * ((0.5 * m_dt * m_dt) * b.body.acceleration - Vec2{s.x, s.y});
     group.mass += mass;
     group.is_pushed = group.is_pushed || b.pushed_at == m_steps || b.part < 1 || b.is_diverted;
+    group.is_slowed = group.is_slowed || m_energy.isSlowed(b.state);
   }
   for (const Magnet& magnet : m_magnets) {  // the momentum that a magnet added was not lost
     const SubstepBody& b = m_bodies[at(magnet.id)];
@@ -337,7 +338,8 @@ void SubstepWorld::finish() {
     if (!isMovable(b)) continue;
     b.push = pushOn(b, s, m_dt);
     b.body.velocity += Vec2{s.vx, s.vy};
-    if (group.mass > 0 && isFinite(group.missing)) b.body.velocity += group.missing / group.mass;
+    if (group.mass > 0 && !group.is_slowed && isFinite(group.missing))
+      b.body.velocity += group.missing / group.mass;
     b.body.spin += double{s.spin} - double{static_cast<float>(b.body.spin)};
   }
   if (const int broken = m_joints.end(m_dt); broken > 0) {

@@ -155,6 +155,7 @@ class SubstepWorld final : public RigidStepper {
     std::int32_t first = -1;
     bool is_held = false, is_driven = false, is_adrift = false;
     bool is_pushed = false;  // a contact or a magnet pushes it
+    bool is_slowed = false;  // energy was taken from it, and momentum may have moved to other groups
     Vec2 missing;            // momentum lost by rounding in this step
     Vec2 missing_path;       // mass times the path by which it deviates from a parabola
     double mass = 0;         // total mass of the bodies that lost it
