@@ -111,7 +111,8 @@ void SubstepEnergy::findRigidMotions(std::span<const SubstepState> states, doubl
   for (const std::int32_t root : m_roots) {
     Rigid& rigid = m_groups[at(root)].rigid;
     const Vec2 outside = rigid.after.velocity - rigid.before.velocity;
-    if (length(outside) > kOutside * rigid.pushed) rigid = {};
+    const bool may_be_held = (m_marks[at(root)] & kHeld) != 0;
+    if (may_be_held && length(outside) > kOutside * rigid.pushed) rigid = {};
     if (!(rigid.mass > 0)) continue;
     for (Vec2* const p_sum : {&rigid.middle, &rigid.before.velocity, &rigid.after.velocity})
       *p_sum = *p_sum / rigid.mass;
@@ -145,7 +146,7 @@ double SubstepEnergy::factorOf(Group& group, bool is_jointed, bool is_bounce) {
   }
   Rigid& rigid = group.rigid;
   // Only if that is not enough, the impulses' error of angular momentum is undone.
-  if (2 * group.over <= group.twice) rigid.before = rigid.after;
+  if (2 * group.over <= group.twice) rigid.before.spin = rigid.after.spin;
   const auto twice = [&](const Motion& of) {
     return rigid.mass * lengthSquared(of.velocity) + rigid.inertia * of.spin * of.spin;
   };
