@@ -15,6 +15,7 @@ constexpr double kSlack = 0.02;       // minimum margin of the search for contac
 constexpr double kSlow = 0.1;         // a body that moves at most this far in a step hardly moves (is_busy)
 constexpr double kBoundsSlack = 0.2;  // margin of bounds in the broad phase; smaller moves do not change them
 
+constexpr double kMissing = 1e-5;  // part of the impulses that rounding may lose
 constexpr double kHeld = 0.05;     // a body is held if less than this part of a magnet's push remains
 constexpr double kAhead = 1;       // maximum further margin of the bounds, along the velocity
 constexpr double kTicksAhead = 2;  // ticks of movement in the additional margin
@@ -307,6 +308,18 @@ void SubstepWorld::keepMomentum() {
     group.is_pushed = group.is_pushed || b.pushed_at == m_steps || b.part < 1 || b.is_diverted;
     group.is_slowed = group.is_slowed || m_energy.isSlowed(b.state);
   }
+  // What is more than rounding was moved between groups when they were slowed.
+  std::fill(m_turns.begin(), m_turns.end(), 0.0);  // scratch: sums of the impulses, by group
+  for (const std::int32_t id : m_active) {
+    const SubstepBody& b = m_bodies[at(id)];
+    const SubstepState& s = m_states[at(b.state)];
+    if (groupOf(b).is_slowed && b.body.inverse_mass > 0)
+      m_turns[at(m_sets.rootOf(b.state))] += length(Vec2{s.vx, s.vy}) / b.body.inverse_mass;
+  }
+  for (std::size_t i = 0; i < m_groups.size(); ++i) {
+    Group& group = m_groups[i];
+    if (group.is_slowed && length(group.missing) > kMissing * m_turns[i]) group.missing = {};
+  }
   for (const Magnet& magnet : m_magnets) {  // the momentum that a magnet added was not lost
     const SubstepBody& b = m_bodies[at(magnet.id)];
     Group& group = groupOf(b);
@@ -338,7 +351,7 @@ void SubstepWorld::finish() {
     if (!isMovable(b)) continue;
     b.push = pushOn(b, s, m_dt);
     b.body.velocity += Vec2{s.vx, s.vy};
-    if (group.mass > 0 && !group.is_slowed && isFinite(group.missing))
+    if (group.mass > 0 && isFinite(group.missing))
       b.body.velocity += group.missing / group.mass;
     b.body.spin += double{s.spin} - double{static_cast<float>(b.body.spin)};
   }
