@@ -9,8 +9,9 @@ namespace {
 
 constexpr double kRounding = 1e-4;       // factors nearer to 1 do not change the impulses kept
 constexpr double kConsiderable = 0.999;  // smaller factors are counted, unless they only undo rounding
-constexpr double kOutside = 1e-5;  // a larger change of momentum, as a part of the impulses, is from outside
-constexpr double kUlps = 6e-8;     // rounding of a float, as a part of its size
+constexpr double kSlightly = 1e-6;  // if bodies are slowed by less, their groups' momentum is still restored
+constexpr double kOutside = 1e-5;   // a larger change of momentum, as a part of the impulses, is from outside
+constexpr double kUlps = 6e-8;      // rounding of a float, as a part of its size
 
 }  // namespace
 
@@ -110,7 +111,8 @@ void SubstepEnergy::findRigidMotions(std::span<const SubstepState> states, doubl
   for (const std::int32_t root : m_roots) {
     Rigid& rigid = m_groups[at(root)].rigid;
     const Vec2 outside = rigid.after.velocity - rigid.before.velocity;
-    if (length(outside) > kOutside * rigid.pushed) rigid = {};
+    const bool may_be_held = (m_marks[at(root)] & kHeld) != 0;
+    if (may_be_held && length(outside) > kOutside * rigid.pushed) rigid = {};
     if (!(rigid.mass > 0)) continue;
     for (Vec2* const p_sum : {&rigid.middle, &rigid.before.velocity, &rigid.after.velocity})
       *p_sum = *p_sum / rigid.mass;
@@ -135,14 +137,16 @@ void SubstepEnergy::findRigidMotions(std::span<const SubstepState> states, doubl
 
 // Returns the factor for the velocities relative to the rigid motion; for the velocity changes if joints are
 // in the group.
-double SubstepEnergy::factorOf(const Group& group, bool is_jointed, bool is_bounce) {
+double SubstepEnergy::factorOf(Group& group, bool is_jointed, bool is_bounce) {
   if (is_jointed) {  // with the factor f, the group gains c + b·f + a/2·f²
     const double a = group.twice, c = is_bounce ? -group.lost : -group.given;
     const double b = group.gain - (is_bounce ? 0 : c) - 0.5 * a;
     const double factor = a > 0 ? (std::sqrt(std::max(b * b - 2 * a * c, 0.0)) - b) / a : 0;
     return factor > 0 ? std::min(factor, 1.0) : 0;
   }
-  const Rigid& rigid = group.rigid;
+  Rigid& rigid = group.rigid;
+  // Only if that is not enough, the impulses' error of angular momentum is undone.
+  if (2 * group.over <= group.twice) rigid.before.spin = rigid.after.spin;
   const auto twice = [&](const Motion& of) {
     return rigid.mass * lengthSquared(of.velocity) + rigid.inertia * of.spin * of.spin;
   };
@@ -192,6 +196,7 @@ void SubstepEnergy::slow(std::span<SubstepState> states, double time, bool is_bo
     SubstepState& s = states[at(id)];
     if (m.mass > 0) s.vx += static_cast<float>(velocity.x), s.vy += static_cast<float>(velocity.y);
     if (m.inertia > 0) s.spin += static_cast<float>(turn - less * off.spin);
+    if (!isJointed(m.group) && less > kSlightly) m_marks[at(id)] |= kSlowed;
     if (!isJointed(m.group) || group.factor > 1 - kRounding) return;
     m_factors[at(id)] = static_cast<float>(group.factor);
     m_has_factors = true;

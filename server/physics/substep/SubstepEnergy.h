@@ -2,7 +2,7 @@
 //
 // Impulses known from the last sub-step, the push that undoes overlap, and restitution may all leave a group
 // with more energy than it had. If so, its bodies are slowed by one factor relative to the motion that they
-// would have as one rigid body with the momentum and angular momentum from before; if something immovable
+// would have as one rigid body with their momentum and angular momentum; if something immovable
 // pushed the group, relative to the world. So contacts do not approach again, and the impulses that carry a
 // pile remain. In a group with joints, the light bodies may gain what a heavy one loses, so there all
 // velocity changes of the stage are multiplied by one factor. Each group is checked alone, in its own frame,
@@ -26,6 +26,10 @@ class SubstepEnergy {
   void watch(std::int32_t state) { m_marks[at(state)] |= kWatched; }
   /// Marks a body that touches or is joined to an immovable one. The group's frame is then the world's.
   void hold(std::int32_t state) { m_marks[at(state)] |= kWatched | kHeld; }
+  /// True if the body was slowed in this step, which may have moved momentum between bodies of its group.
+  bool isSlowed(std::int32_t state) const { return (m_marks[at(state)] & kSlowed) != 0; }
+  /// Returns the lowest state of the body's group.
+  std::int32_t groupOf(std::int32_t state) const { return m_members[at(state)].group; }
   bool isWatched(std::int32_t state) const { return m_marks[at(state)] != 0; }
   /// Marks a body with a joint.
   void join(std::int32_t state) { m_marks[at(state)] |= kWatched | kJointed; }
@@ -81,7 +85,7 @@ class SubstepEnergy {
     double factor = 1;
     Rigid rigid;
   };
-  static constexpr std::uint8_t kWatched = 1, kHeld = 2, kIgnored = 4, kJointed = 8;
+  static constexpr std::uint8_t kWatched = 1, kHeld = 2, kIgnored = 4, kJointed = 8, kSlowed = 16;
   struct alignas(64) Member {
     Lanes before = {};  // gained velocity and spin before the impulses of this stage
     Lanes twice = {};   // twice the velocity at the start of the step, in the group's frame
@@ -93,7 +97,6 @@ class SubstepEnergy {
     __builtin_memcpy(&speeds, &state.vx, sizeof speeds);
     return speeds;
   }
-  std::int32_t groupOf(std::int32_t state) const { return m_members[at(state)].group; }
   // Returns the motion with these gained speeds, in the group's frame.
   Motion motionOf(std::int32_t state, Lanes speeds) const {
     return {m_velocities[at(state)] + Vec2{speeds[0], speeds[1]}, speeds[2]};
@@ -109,7 +112,7 @@ class SubstepEnergy {
   template <class Visit>
   void visitOver(Visit visit);
   void findRigidMotions(std::span<const SubstepState> states, double time);
-  static double factorOf(const Group& group, bool is_jointed, bool is_bounce);
+  static double factorOf(Group& group, bool is_jointed, bool is_bounce);
   void slow(std::span<SubstepState> states, double time, bool is_bounce);
 
   std::vector<Member> m_members;   // by state

@@ -239,7 +239,8 @@ void SubstepWorld::approach(int one, int other) {
   }
   Fast& that = m_fast[at(other)];
   const double nearer = length(fast.path - that.path) + fast.roll + that.roll;
-  const bool are_together = nearer <= kMaxPass * std::min(fast.thickness, that.thickness);
+  const bool are_movable = isMovable(m_bodies[at(fast.id)]) && isMovable(m_bodies[at(that.id)]);
+  const bool are_together = are_movable && nearer <= kMaxPass * std::min(fast.thickness, that.thickness);
   if (are_together && !fast.is_stopped && !that.is_stopped) return;
   addNear(fast, that.id);
   addNear(that, fast.id);

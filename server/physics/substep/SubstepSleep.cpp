@@ -39,6 +39,11 @@ void SubstepWorld::findGroups() {
     });
   };
   forEachHold([&](const SubstepBody& a, const SubstepBody& b) { unite(a, b); });
+  // A group from which energy was taken may be larger, and momentum has moved within it.
+  for (const std::int32_t id : m_active) {
+    const std::int32_t state = m_bodies[at(id)].state;
+    if (m_energy.isSlowed(state)) m_sets.unite(state, m_energy.groupOf(state));
+  }
   m_groups.assign(m_states.size(), {});
   const auto lean = [&](const SubstepBody& on, const SubstepBody& member) {
     if (isMovable(on) || member.state == 0 || !isMovable(member)) return;

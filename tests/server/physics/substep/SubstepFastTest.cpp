@@ -128,22 +128,21 @@ TEST(SubstepFast, BarsDoNotPassMovingWalls) {
   EXPECT_EQ(throughMoving(WallMotion::kTurnsAndMoves, 400), 0);
 }
 
-// A plough moves over several crates a tick. They sleep on the floor, so nothing else would push them.
-TEST(SubstepFast, KinematicPloughPushesASleepingRow) {
+// The plough moves over several widths of the crate a tick. Nothing else would wake or push the crate.
+TEST(SubstepFast, KinematicPloughPushesASleepingCrate) {
   SubstepScene scene;
   scene.addFloor();
-  std::vector<int> crates;
-  for (int i = 0; i < 4; ++i) crates.push_back(scene.addCrate({1.1 * i, -0.5}));
+  const int crate = scene.addCrate({0, -0.5});
   scene.ticks(60);
-  ASSERT_TRUE(scene.world.isAsleep(crates[0]));
+  ASSERT_TRUE(scene.world.isAsleep(crate));
   RigidBody plough = immovable({-20, -2});
   plough.velocity = {3, 0};
   const int id = scene.add(plough, boxShape(0.5, 1.9));
   for (int tick = 0; tick < 20; ++tick) {
     scene.ticks(1);
-    for (const int crate : crates) ASSERT_GT(scene.at(crate).x, scene.at(id).x) << tick;
+    ASSERT_GT(scene.at(crate).x, scene.at(id).x) << tick;
   }
-  EXPECT_NEAR(scene.world.body(crates[0]).velocity.x, 3, 0.5);
+  EXPECT_NEAR(scene.world.body(crate).velocity.x, 3, 0.1);
 }
 
 TEST(SubstepFast, FastBodyStopsAtContactAndContinuesNextTick) {
