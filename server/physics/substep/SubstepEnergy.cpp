@@ -85,12 +85,15 @@ bool SubstepEnergy::judge(bool is_bounce) {
   return is_any;
 }
 
+// Calls visit() for the members of groups that gained too much, except those that this stage did not push.
 template <class Visit>
-void SubstepEnergy::visitOver(Visit visit) {
+void SubstepEnergy::visitOver(std::span<const SubstepState> states, Visit visit) {
   for (const std::int32_t id : m_ids) {
     const Member& m = m_members[at(id)];
     Group& group = m_groups[at(m.group)];
-    if (group.over > 0) visit(id, m, group);
+    if (!(group.over > 0)) continue;
+    const Lanes change = speedsOf(states[at(id)]) - m.before;
+    if (change[0] != 0 || change[1] != 0 || change[2] != 0) visit(id, m, group);
   }
 }
 
@@ -98,7 +101,7 @@ void SubstepEnergy::visitOver(Visit visit) {
 // with joints, or whose momentum something immovable changed.
 void SubstepEnergy::findRigidMotions(std::span<const SubstepState> states, double time) {
   for (const std::int32_t root : m_roots) m_groups[at(root)].rigid = {};
-  visitOver([&](std::int32_t id, const Member& m, Group& group) {
+  visitOver(states, [&](std::int32_t id, const Member& m, Group& group) {
     Rigid& rigid = group.rigid;
     if ((m_marks[at(m.group)] & kJointed) != 0) return;
     const Lanes change = speedsOf(states[at(id)]) - m.before;
@@ -117,7 +120,7 @@ void SubstepEnergy::findRigidMotions(std::span<const SubstepState> states, doubl
     for (Vec2* const p_sum : {&rigid.middle, &rigid.before.velocity, &rigid.after.velocity})
       *p_sum = *p_sum / rigid.mass;
   }
-  visitOver([&](std::int32_t id, const Member& m, Group& group) {
+  visitOver(states, [&](std::int32_t id, const Member& m, Group& group) {
     Rigid& rigid = group.rigid;
     if (rigid.mass == 0) return;
     const Vec2 arm = placeOf(id, states, time) - rigid.middle;
@@ -169,7 +172,7 @@ void SubstepEnergy::slow(std::span<SubstepState> states, double time, bool is_bo
     return {its.velocity - rigid.velocity - cross(rigid.spin, arm(id, group)), its.spin - rigid.spin};
   };
   for (const std::int32_t root : m_roots) m_groups[at(root)].twice = m_groups[at(root)].rounding = 0;
-  visitOver([&](std::int32_t id, const Member& m, Group& group) {
+  visitOver(states, [&](std::int32_t id, const Member& m, Group& group) {
     const Motion off = offOf(id, m, group);
     group.twice += m.mass * lengthSquared(off.velocity) + m.inertia * off.spin * off.spin;
     const Lanes change = speedsOf(states[at(id)]) - m.before;
@@ -187,7 +190,7 @@ void SubstepEnergy::slow(std::span<SubstepState> states, double time, bool is_bo
     if (is_rounding) group.over = 0;
     if (!is_rounding) ++m_scaled;
   }
-  visitOver([&](std::int32_t id, const Member& m, const Group& group) {
+  visitOver(states, [&](std::int32_t id, const Member& m, const Group& group) {
     const Motion off = offOf(id, m, group);
     const Rigid& rigid = group.rigid;
     const double less = 1 - group.factor, turn = rigid.before.spin - rigid.after.spin;
@@ -196,7 +199,7 @@ void SubstepEnergy::slow(std::span<SubstepState> states, double time, bool is_bo
     SubstepState& s = states[at(id)];
     if (m.mass > 0) s.vx += static_cast<float>(velocity.x), s.vy += static_cast<float>(velocity.y);
     if (m.inertia > 0) s.spin += static_cast<float>(turn - less * off.spin);
-    if (!isJointed(m.group) && less > kSlightly) m_marks[at(id)] |= kSlowed;
+    if (!isJointed(m.group) && (less > kSlightly || turn != 0)) m_marks[at(id)] |= kSlowed;
     if (!isJointed(m.group) || group.factor > 1 - kRounding) return;
     m_factors[at(id)] = static_cast<float>(group.factor);
     m_has_factors = true;

@@ -110,7 +110,7 @@ class SubstepEnergy {
   void sum(std::span<const SubstepState> states);
   bool judge(bool is_bounce);
   template <class Visit>
-  void visitOver(Visit visit);
+  void visitOver(std::span<const SubstepState> states, Visit visit);
   void findRigidMotions(std::span<const SubstepState> states, double time);
   static double factorOf(Group& group, bool is_jointed, bool is_bounce);
   void slow(std::span<SubstepState> states, double time, bool is_bounce);

@@ -18,6 +18,7 @@ constexpr const char* kBegin = R"(#include <cmath>
 #include <vector>
 
 #include "Body.h"
+#include "EventCollision.h"
 #include "EventContactEnd.h"
 #include "Field.h"
 #include "PhysicsManager.h"
