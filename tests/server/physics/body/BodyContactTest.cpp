@@ -267,6 +267,7 @@ struct Crowd {
   int next = 0, ends = 0;
 
   double part() { return ((seed = seed * 1664525 + 1013904223) >> 8) / 16777216.0; }
+  bool is_over = false;  // nothing is changed any more
   int below(int n) { return static_cast<int>(n * part()); }
   Vector place() {
     const double x = 10 * part() - 5;
@@ -336,6 +337,7 @@ class Guest : public InCrowd<Body> {
 };
 
 void Crowd::change(Object* p_object) {
+  if (is_over) return;
   auto* p_body = dynamic_cast<Body*>(p_object);
   constexpr Solidness kAll[] = {HARD, SOFT, SPECTRAL};
   switch (below(p_body != nullptr ? 9 : 5)) {
@@ -406,6 +408,7 @@ TEST_F(BodyContacts, EveryBeginHasOneEnd) {
       own.world.update();
       ASSERT_FALSE(HasFailure()) << "round " << round << " tick " << tick;
     }
+    crowd.is_over = true;
     for (const auto& [number, p_object] : crowd.living) p_object->setPosition(Vector(30 * number, -1000));
     PM.setGravity(Vector());
     for (int i = 0; i < 5; ++i) own.world.update();
