@@ -147,7 +147,7 @@ void RigidStepper::applyForget(Pairs& pairs, IsMovable isMovable, Drop drop) {
   m_is_changed.assign(count, 0);
   for (const int id : m_forgotten) m_is_changed[rootOf(id)] = exists(id) ? 1 : 0;
   m_forgotten.clear();
-  visitLinks([&](int a, int b) {  // an immovable body is no part of a group
+  visitLinks([&](int a, int b) {  // immovable bodies belong to no group
     if (!isMovable(a) && isMovable(b) && m_is_changed[rootOf(a)] != 0) m_is_changed[rootOf(b)] = 1;
     if (!isMovable(b) && isMovable(a) && m_is_changed[rootOf(b)] != 0) m_is_changed[rootOf(a)] = 1;
   });

@@ -1,5 +1,5 @@
 // Bodies of a SubstepWorld that move farther in a step than contacts were searched for: they stop at their
-// first contact, or go on with the body that they met.
+// first contact, or move with the body that they met.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,7 +11,7 @@ namespace naiad::physics {
 namespace {
 
 constexpr double kMaxTurn = 40;  // rad per step: maximum swept rotation; limits timeOfImpact()'s iterations
-// In units of the body's thickness:
+// Lengths in units of the body's thickness:
 constexpr double kMaxPass = 0.5;  // limit of movement beyond the search, so the centre passes nothing
 constexpr double kCore = 0.5;     // radius of the core that is swept if the other body pushes this one
 
