@@ -42,7 +42,7 @@ class BodyIslands {
     bool is_heap = false;     // the SubstepWorld of heaps moves the group, unless is_general
     int bodies = 0;           // number of HARD bodies free to move
     bool may_touch = false;
-    bool may_rest = false;    // true unless every impact keeps the energy, so that no blow presses a heap
+    bool may_rest = false;  // true unless every impact keeps the energy, so that no blow presses a heap
     double fastest = 0;
     double max_inverse_mass = 0;  // maximum among HARD bodies; 0: none is free to move
     double min_inverse_mass = 0;

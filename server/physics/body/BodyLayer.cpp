@@ -21,9 +21,8 @@ namespace naiad::physics {
 namespace {
 
 constexpr double kFarthestFlight =
-    1e12;  // metric cells in a tick; less than 2^51, the limit for moving a Place
-constexpr double kFollowed =
-    16;  // per tick²: maximum stiffness of a spring that swings little in a tick
+    1e12;                         // metric cells in a tick; less than 2^51, the limit for moving a Place
+constexpr double kFollowed = 16;  // per tick²: maximum stiffness of a spring that swings little in a tick
 constexpr const char* kBeyond = "its position or velocity is out of range";
 
 }  // namespace

@@ -40,8 +40,8 @@ class JointMatrix {
   /// Factors the matrix, with the diagonal multiplied by 1 + `regularisation`. Returns the number of rows
   /// that depend on other rows; their multipliers will be 0.
   int factor(const JointRow* rows, const JointMass* masses, double regularisation = 0);
-  /// Like factor(), without rows with `is_out`, whose right-hand side must be 0, and with `softness` added to the
-  /// diagonal.
+  /// Like factor(), without rows with `is_out`, whose right-hand side must be 0, and with `softness` added to
+  /// the diagonal.
   int factor(const JointRow* rows, const JointMass* masses, const std::uint8_t* is_out,
              const double* softness, double regularisation);
 

@@ -66,8 +66,8 @@ TEST(SubstepEnergy, ElasticBoxesGainNone) {
   }
 }
 
-// The push that undoes an overlap moves the bodies, but leaves no speed beyond rounding: the bodies have a mass
-// of 78 and are pushed at 0.1 cells a tick, and a float rounds that by 6e-9.
+// The push that undoes an overlap moves the bodies, but leaves no speed beyond rounding: the bodies have a
+// mass of 78 and are pushed at 0.1 cells a tick, and a float rounds that by 6e-9.
 TEST(SubstepEnergy, OverlappingBodiesAtRestStayAtRest) {
   SubstepScene scene(awake());
   std::vector<int> boxes;
