@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Game{"breakout", 0xbce01429f5cdc6c9}, Game{"bullethell", 0xad804e66e5638c57},
                       Game{"chase", 0x340062b8544b9848}, Game{"hello", 0xe45e0ba05e3fc998},
                       Game{"lander", 0xe2c224ec6152eb3f}, Game{"maze", 0xbafc29fa70221cdd},
-                      Game{"platformer", 0x821a44b3bea0d158}, Game{"sandbox", 0x8ce146f7a59762ce},
+                      Game{"platformer", 0x821a44b3bea0d158}, Game{"sandbox", 0x6ee2df9e4463e198},
                       Game{"saucershoot", 0x6e8fab27e05d1b2f}, Game{"tron", 0x55e0d957d53b5a66}),
     [](const auto& game) { return std::string(game.param.name); });
 

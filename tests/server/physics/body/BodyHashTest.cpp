@@ -49,7 +49,7 @@ class Noisy : public Body {
 };
 
 constexpr std::uint64_t kHash = 9607699934416503627u;
-constexpr std::uint64_t kFastHash = 16724040955969562039u;
+constexpr std::uint64_t kFastHash = 1155774363332964775u;
 
 std::uint64_t run(bool may_turn, int count, Accuracy accuracy = ACCURACY_DEFAULT) {
   OwnWorld own(2);
