@@ -24,6 +24,7 @@ Vec2 jerkOf(const Flown& flown, Vec2 velocity) {
 // An Object's order in the solver is a multiple of its order in the world. The numbers between are those of
 // the blocks found from its sides.
 constexpr std::uint64_t kOrders = 8;
+constexpr double kSlow = 1;  // metric cells per tick: obstacles at this distance are always near
 std::uint64_t orderOf(std::uint64_t order, int side) {
   return kOrders * order + 1 + at(side);
 }
@@ -102,18 +103,11 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table, s
   }
   m_count = 0;
   m_has_pulls = false;
-  m_fastest = {};
   m_world.expect(states.size());
   for (std::size_t i = 0; i < states.size(); ++i) {
     BodyState& state = states[i];
     if (!isStepped(state)) continue;
-    if (state.solver == m_solver) {
-      m_has_pulls = m_has_pulls || state.isPulled();
-      const double tip =
-          std::fabs(state.spin) * state.size.x;  // a rotating bar throws what it hits, or itself
-      m_fastest = {std::max(m_fastest.x, std::fabs(state.start_velocity.x) + tip),
-                   std::max(m_fastest.y, std::fabs(state.start_velocity.y) + tip)};
-    }
+    if (state.solver == m_solver) m_has_pulls = m_has_pulls || state.isPulled();
     const BodyRow& row = table.row(state.index);
     const BodyGeometry& form = table.form(state.index);
     RigidBody body;
@@ -141,14 +135,56 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table, s
   }
 }
 
-// Updates the obstacles near the bodies. A body that is hit may get as far as the fastest body (m_fastest).
+// Finds the stretches: a body that is hit may get as far as the fastest body of its own. A distant group has
+// no effect on it, because which obstacles are near decides how far a block reaches.
+void BodyRigids::findStretches(const std::vector<BodyState>& states) {
+  m_stretches.clear();
+  bool are_slow = true;
+  for (const BodyState& state : states) {
+    if (state.solver != m_solver) continue;
+    const double tip = std::fabs(state.spin) * state.size.x;  // a rotating bar throws what it hits, or itself
+    const Vec2 fastest = {std::max(kSlow, std::fabs(state.start_velocity.x) + tip),
+                          std::max(kSlow, std::fabs(state.start_velocity.y) + tip)};
+    are_slow = are_slow && fastest == Vec2{kSlow, kSlow};
+    const double x = (state.start - Place{}).x, reach = state.reach.x;
+    m_stretches.push_back({x - reach, x + reach, fastest});
+  }
+  if (are_slow) return m_stretches.clear();
+  std::sort(m_stretches.begin(), m_stretches.end(),
+            [](const Stretch& a, const Stretch& b) { return a.low < b.low; });
+  for (std::size_t before = 0; before != m_stretches.size();) {
+    before = m_stretches.size();
+    std::size_t last = 0;
+    for (std::size_t i = 1; i < before; ++i) {
+      const Stretch next = m_stretches[i];
+      Stretch& its = m_stretches[last];
+      if (next.low - next.fastest.x > its.high + its.fastest.x) {
+        m_stretches[++last] = next;
+        continue;
+      }
+      its.high = std::max(its.high, next.high);
+      its.fastest = {std::max(its.fastest.x, next.fastest.x), std::max(its.fastest.y, next.fastest.y)};
+    }
+    m_stretches.resize(last + 1);
+  }
+}
+
+Vec2 BodyRigids::fastestNear(const Place& place) const {
+  if (m_stretches.empty()) return {kSlow, kSlow};
+  const auto after = std::upper_bound(m_stretches.begin(), m_stretches.end(), (place - Place{}).x,
+                                      [](double x, const Stretch& its) { return x < its.low; });
+  return after == m_stretches.begin() ? after->fastest : std::prev(after)->fastest;
+}
+
+// Updates the obstacles near the bodies.
 void BodyRigids::updateObstacles(const WorldStore& store, const BodyTable& table,
                                  const std::vector<BodyState>& states, BodyContacts& contacts) {
+  findStretches(states);
   m_obstacles.beginTick();
   m_surroundings.clear();
   for (const BodyState& state : states) {
     if (state.solver != m_solver || !state.is_hard) continue;
-    m_surroundings.addRegion(regionOf(table.metric, state.start, state.reach + m_fastest));
+    m_surroundings.addRegion(regionOf(table.metric, state.start, state.reach + fastestNear(state.start)));
   }
   m_surroundings.query(store, [&](std::size_t /*number*/, ObjectKey key) {
     if (BodyObstacles::isObstacle(store, key)) m_obstacles.markNear(key);

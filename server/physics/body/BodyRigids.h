@@ -50,6 +50,11 @@ class BodyRigids {
     double mass = 0;
     bool is_used = false;
   };
+  /// Part of the x axis with bodies that may reach each other in this tick, directly or through others.
+  struct Stretch {
+    double low, high;
+    Vec2 fastest;  ///< maximum speeds of their points along each axis at the start of the tick
+  };
   struct PlatformProxy {
     int serial = 0;  // of the platform
     int id = -1;
@@ -69,6 +74,8 @@ class BodyRigids {
                     const std::vector<double>& unit_inertias, BodyContacts& contacts);
   void shape(Proxy& proxy, const BodyTable& table, const BodyState& state, const FixedBox& box,
              const RigidBody& body);
+  void findStretches(const std::vector<BodyState>& states);
+  Vec2 fastestNear(const Place& place) const;
   void updateObstacles(const WorldStore& store, const BodyTable& table, const std::vector<BodyState>& states,
                        BodyContacts& contacts);
   void setFrictions(const Metric& metric, const BodyPlatforms::Platform& platform,
@@ -100,8 +107,8 @@ class BodyRigids {
   BlockContacts m_block_contacts;
   BodySurroundings m_surroundings;
   int m_count = 0;
-  bool m_has_pulls = false;  // true if a pull acts on one of its bodies in this tick
-  Vec2 m_fastest;            // maximum speeds of its bodies' points along each axis at the start of the tick
+  bool m_has_pulls = false;          // true if a pull acts on one of its bodies in this tick
+  std::vector<Stretch> m_stretches;  // sorted; empty if all bodies are slow
   bool m_may_sleep = true;
 };
 

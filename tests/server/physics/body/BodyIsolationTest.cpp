@@ -162,6 +162,33 @@ TEST(BodyIsolationOfCrates, CratesDoNotDependOnWhichGroupCameFirst) {
   }
 }
 
+// Which tiles are near a body, and so how far their surface reaches, does not depend on a fast body
+// elsewhere.
+TEST(BodyIsolationOfTiles, BodyOnTilesMovesTheSameBesideAFastOne) {
+  for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
+    std::vector<std::vector<BodyBits>> paths;
+    for (const double speed : {0.0, 3.0, 1000.0}) {
+      OwnWorld own;
+      PM.setAccuracy(accuracy);
+      PM.setGravity(Vector(0, 0.01));
+      if (speed > 0) BodyScene::turningCrate(Vector(4000, 300))->setVelocity(Vector(speed, 0));
+      std::vector<Object*> tiles;
+      for (int i = 0; i < 10; ++i)
+        tiles.push_back(BodyScene::wall(Vector(0.5 * i - 2, 0.25), Vector(0.25, 0.25)));
+      Body* p_body = BodyScene::turningCrate(Vector(-2, -0.8));
+      p_body->setVelocity(Vector(0.05, 0));
+      std::vector<BodyBits>& path = paths.emplace_back();
+      for (int tick = 0; tick < 60; ++tick) {
+        if (tick == 27) tiles[7]->setSolidness(SOFT);
+        own.world.update();
+        path.push_back(stateBits(p_body));
+      }
+    }
+    EXPECT_EQ(paths[1], paths[0]) << accuracy;
+    EXPECT_EQ(paths[2], paths[0]) << accuracy;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Joints, BodyIsolation,
                          testing::Combine(testing::Values(Link::kDistance, Link::kRope, Link::kHinge,
                                                           Link::kSpring, Link::kNone),
