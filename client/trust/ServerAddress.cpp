@@ -56,10 +56,10 @@ std::optional<ServerAddress> ServerAddress::parse(const std::string& text) {
   } else {
     address.host = text;  // without a port; more than one colon is a bare IPv6 address
   }
-  const bool good_host = !address.host.empty() && address.host.size() <= 253 &&
-                         std::none_of(address.host.begin(), address.host.end(), [](unsigned char c) {
-                           return c <= ' ' || c == 0x7F || c == '[' || c == ']' || c == '/';
-                         });
+  const bool good_host =
+      !address.host.empty() && address.host.size() <= 253 && !address.host.ends_with("..") &&
+      std::none_of(address.host.begin(), address.host.end(),
+                   [](unsigned char c) { return c <= ' ' || c == 0x7F || c == '[' || c == ']' || c == '/'; });
   if (!good_host) return std::nullopt;
   if (has_port) {
     const auto number = readNumber<std::uint16_t>(port, 1, 65'535);

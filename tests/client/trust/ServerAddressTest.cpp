@@ -25,7 +25,7 @@ TEST(ServerAddress, ParsesHostAndOptionalPort) {
 
 TEST(ServerAddress, RejectsMalformedAddresses) {
   for (const char* text : {"", ":", ":80", "a:", "a:0", "a:65536", "a:-1", "a:8x", "[::1", "[]:1", "[::1]80",
-                           "a b", "a/b", "a\033b"}) {
+                           "a b", "a/b", "a\033b", "a..", ".."}) {
     EXPECT_FALSE(ServerAddress::parse(text)) << text;
   }
 }
