@@ -2,13 +2,14 @@
 // ropes and angle limits while they act.
 //
 // It also knows the group's springs, for the energy. It is alone if the group has no other joints, and no
-// shapes, so that nothing can touch it. Its sub-steps are RATTLE (Andersen 1983): half a kick; the impulses
-// at the present joints after which the bodies arrive at places where the joints fit; the bodies move; half a
-// kick; the impulses that remove the speeds along the joints. Both solutions use one matrix, a
-// JointMatrix, whose factorisation takes O(n) for a tree.
+// shapes, so that nothing can touch it. Then each of its sub-steps is one of RATTLE (Andersen 1983). First
+// come half of the change of velocity by acceleration, and impulses along the joints at their present places,
+// so that the joints are closed at the next places. Then the bodies move. Last come the other half, and
+// impulses that remove the speeds along the joints. Both solutions use one JointMatrix, whose factorisation
+// takes O(n) for a tree.
 //
-// In other groups, RigidDirect finds the velocities, with contacts and bounds. Then the linkage finds the
-// further impulses after which the joints fit.
+// In other groups, RigidDirect finds the velocities, with contacts and bounds. Then the linkage adds the
+// impulses that close the joints.
 #pragma once
 
 #include <cstdint>
@@ -74,8 +75,8 @@ class RigidLinkage {
   /// Call at the start of a step of a linkage that is not alone.
   void begin(std::span<const RigidBody> bodies, std::span<const RigidState> states,
              const RigidJoints& joints);
-  /// Removes the speeds along the joints. For a linkage that is pure and touches nothing, this does the work
-  /// of RigidDirect.
+  /// Removes the speeds along the joints. Replaces RigidDirect for a linkage that is pure and touches
+  /// nothing.
   void project(std::span<RigidState> states, RigidJoints& joints);
   /// Changes the velocities so that the joints fit where the bodies arrive after h. Does nothing if there are
   /// no such velocities nearby.

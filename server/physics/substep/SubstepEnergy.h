@@ -1,12 +1,11 @@
 // Watches that impulses add no kinetic energy to a group of bodies, except what drivers and springs give.
 //
 // Impulses known from the last sub-step, the push that undoes overlap, and restitution may all leave a group
-// with more energy than it had. If so, its bodies are slowed by one factor relative to the motion that they
-// would have as one rigid body with their momentum and angular momentum; if something immovable
-// pushed the group, relative to the world. So contacts do not approach again, and the impulses that carry a
-// pile remain. In a group with joints, the light bodies may gain what a heavy one loses, so there all
-// velocity changes of the stage are multiplied by one factor. Each group is checked alone, in its own frame,
-// so that groups do not influence each other.
+// with more energy than it had. If so, one factor reduces the velocities of its bodies relative to the motion
+// of one rigid body with their momentum and angular momentum; relative to the world, if an immovable body
+// pushed the group. So contacts do not approach again, and the impulses that carry a pile remain. In a group
+// with joints, light bodies may gain what a heavy one loses, so one factor reduces all velocity changes of
+// the stage. Each group is checked alone, in its own frame, so that groups do not influence each other.
 #pragma once
 
 #include <cstdint>

@@ -168,7 +168,7 @@ class SubstepJoints : public JointStore {
   std::vector<Shape> m_shapes, m_shapes_before;  // by link, then by load
   std::vector<Slot> m_slots;                     // by shape
   std::map<int, System> m_systems;               // by the id of the first joint
-  UnionFind m_sets;                              // of bodies
+  UnionFind m_sets;                              // bodies that joints connect
   std::vector<float> m_behind;                   // by root in m_sets: least inverse mass; −1: no joints
   int m_pairs_loaded = 0;                        // loads between movable bodies
   std::vector<int> m_local_of;                   // scratch, by body: index in its system

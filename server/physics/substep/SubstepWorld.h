@@ -171,7 +171,7 @@ class SubstepWorld final : public RigidStepper {
     double twiceEnergyAboutMiddle() const { return twice_energy - lengthSquared(momentum) / mass; }
   };
   struct Free {    // a group that nothing holds
-    Place origin;  // of its first body, before the step
+    Place origin;  // place of its first body before the step
     Vec2 velocity, acceleration, jerk;
     bool is_kept = true;  // only its bodies' torques change its angular momentum
     double torque = 0;

@@ -31,8 +31,7 @@ class HuntBody : public df::Body {
 
 class LiveScene {
  public:
-  /// With `p_start`, the bodies get these states, and the joints keep what they have from the scene's own
-  /// start.
+  /// With `p_start`, the bodies get these states after the joints have been made at the scene's own start.
   LiveScene(const SceneData& scene, const std::vector<BodyState>* p_start, bool writes);
   ~LiveScene() { m_world.shutDown(); }
   LiveScene(const LiveScene&) = delete;
