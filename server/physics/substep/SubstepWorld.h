@@ -299,6 +299,7 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_active;   // ids of bodies that move in this step, by order
   std::vector<std::int32_t> m_drivers;  // the kinematic ones of these
   std::vector<std::int32_t> m_changed;
+  std::vector<std::int32_t> m_slowed;
   std::vector<Free> m_free_groups;
   std::vector<std::pair<std::int32_t, std::int32_t>> m_free_members;  // id and index in m_free_groups
   std::vector<Near> m_near;
