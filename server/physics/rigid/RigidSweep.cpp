@@ -99,8 +99,7 @@ void RigidWorld::advance(int id, double time, double h) {
   const Pose pose = poseAt(id, time, h);
   s.displacement = pose.displacement;
   s.turn = pose.turn;
-  Flight& flight = m_flights[at(m_extras[at(id)].flight)];
-  flight.time = time;
+  m_flights[at(m_extras[at(id)].flight)].time = time;
 }
 
 void RigidWorld::hold(int id) {
@@ -307,8 +306,7 @@ void RigidWorld::land(int id, double h) {
   flight.has_landed = true;
 }
 
-// Applies the impulses of an impact, at the velocities of that time. Those of the states are the velocities
-// of the middle of the sub-step. Bodies that come to rest on each other do not fall in the rest of it.
+// Applies the impulses of an impact at its time. The states have the velocities of the sub-step's middle.
 void RigidWorld::applyImpact(ContactConstraint& c, double time) {
   RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
   const double since = 2 * time - 1;
@@ -324,9 +322,11 @@ void RigidWorld::applyImpact(ContactConstraint& c, double time) {
       c.friction > 0 ? rub(c, rest_speed, rest_after) : bounce(c, m_states, rest_speed, rest_after);
   shift(-since);
   c.is_ballistic = c.restitution > 0 && c.may_fly && !rests;
-  for (const int id : {c.a, c.b}) {
-    if (rests) m_flights[at(m_extras[at(id)].flight)].bend = {};
-  }
+  // At rest on each other, they fall together, or not at all if one of them cannot fall.
+  const double share = a.inverse_mass / (a.inverse_mass + b.inverse_mass);
+  const Vec2 bend = bend_a != Vec2{} && bend_b != Vec2{} ? bend_a + share * (bend_b - bend_a) : Vec2{};
+  if (rests)
+    m_flights[at(m_extras[at(c.a)].flight)].bend = m_flights[at(m_extras[at(c.b)].flight)].bend = bend;
   for (std::int32_t i = 0; i < c.count; ++i) {
     ContactPoint& p = c.points[at(i)];
     p.total += p.normal_impulse;

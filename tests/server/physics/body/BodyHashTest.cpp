@@ -48,8 +48,8 @@ class Noisy : public Body {
   Hashed& m_hash;
 };
 
-constexpr std::uint64_t kHash = 9607699934416503627u;
-constexpr std::uint64_t kFastHash = 1155774363332964775u;
+constexpr std::uint64_t kHash = 17396102000387394471u;
+constexpr std::uint64_t kFastHash = 3143742258119587501u;
 
 std::uint64_t run(bool may_turn, int count, Accuracy accuracy = ACCURACY_DEFAULT) {
   OwnWorld own(2);

@@ -174,5 +174,33 @@ TEST_F(BodyRigids, LampHangsFromASpectralNail) {
   }
 }
 
+// Two bodies that meet in the air, without a bounce, fall together from then on, whenever in the tick they
+// meet.
+TEST(BodyRigidFalls, CentreOfMassFallsFreelyThroughAnInelasticImpact) {
+  for (const double gap : {0.1, 0.7, 1.3, 1.9}) {
+    for (const double mass : {1.0, 3.0}) {
+      for (const double scale : {1.0, 2.0}) {
+        OwnWorld own;
+        PM.setGravity(Vector(0, 0.01));
+        Body* p_hit = BodyScene::turningCrate(Vector());
+        Body* p_hitting = BodyScene::turningCrate(Vector(1 + gap, 0));
+        p_hitting->setMass(mass);
+        p_hitting->setGravityScale(scale);
+        p_hitting->setVelocity(Vector(-2, 0));
+        for (Body* p_body : {p_hit, p_hitting}) {
+          p_body->setRestitution(0);
+          p_body->setFriction(0);
+        }
+        for (int tick = 1; tick <= 3; ++tick) {
+          own.world.update();
+          const double fallen = (p_hit->getPosition().y() + mass * p_hitting->getPosition().y()) / (1 + mass);
+          const double gravity = 0.01 * (1 + mass * scale) / (1 + mass);
+          EXPECT_NEAR(fallen, 0.5 * gravity * tick * tick, 1e-8) << gap << ' ' << mass << ' ' << scale;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace df::test
