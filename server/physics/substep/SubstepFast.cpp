@@ -328,13 +328,30 @@ void SubstepWorld::stop(Fast& fast) {
     if (carrier < 0) carrier = carrierOf(fast);
   }
   if (carrier >= 0 && m_bodies[at(carrier)].state > 0 && carry(fast, carrier, first)) return;
-  if (p_met != nullptr && !p_met->is_stopped && advanceTogether(fast, *p_met, first)) return;
+  const auto isJoined = [&](const Fast& its) { return m_energy.isJoined(m_bodies[at(its.id)].state); };
+  if (p_met != nullptr && !p_met->is_stopped && !isJoined(fast) && !isJoined(*p_met) &&
+      advanceTogether(fast, *p_met, first))
+    return;
   for (Fast* const p_fast : {&fast, p_met}) {  // the fast body that was hit stops, too
     if (p_fast == nullptr || p_fast->carrier >= 0) continue;
     double& part = m_bodies[at(p_fast->id)].part;
     part = std::min(part, first);
     p_fast->is_stopped = true;
     approachAgain(*p_fast);
+  }
+}
+
+// Stops the bodies that joints connect to a stopped one at the same time, so that the joints do not open.
+void SubstepWorld::stopJoined() {
+  std::vector<double>& least = m_path_order;  // by group
+  least.assign(m_joints.isEmpty() ? 0 : m_bodies.size(), 1);
+  for (const bool is_end : {false, true}) {
+    const auto visit = [&](int id) {
+      if (id < 0 || !isMovable(m_bodies[at(id)])) return;
+      double &part = m_bodies[at(id)].part, &of_group = least[at(m_joints.groupOf(id))];
+      (is_end ? part : of_group) = std::min(part, of_group);
+    };
+    m_joints.visitLinks([&](int a, int b) { visit(a), visit(b); });
   }
 }
 

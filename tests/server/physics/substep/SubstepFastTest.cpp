@@ -193,6 +193,37 @@ TEST(SubstepFast, FastBodyWakesAndPushesASleepingOne) {
   EXPECT_GT(scene.world.body(crate).velocity.x, 5);
 }
 
+// One of two joined bodies meets a wall, or is hit by a fast body, at any time of the tick. They do not turn.
+TEST(SubstepFast, JoinedBodiesStopTogether) {
+  for (const JointKind kind : {JointKind::kHinge, JointKind::kWeld}) {
+    for (const double speed : {1.0, 3.0, 10.0}) {
+      for (int i = 0; i < 20; ++i) {
+        for (const bool is_hit : {false, true}) {
+          SubstepScene scene;
+          const ConvexShape shape = boxShape(0.5, 0.5);
+          const double away = 1.5 + 0.05 * i * speed;
+          RigidBody body = floating({0, 0}, shape, {is_hit ? 0 : speed, 0});
+          body.inverse_inertia = 0;
+          const int one = scene.add(body, shape);
+          body.place = body.place + Vec2{0, 2};
+          const int other = scene.add(body, shape);
+          if (is_hit) {
+            scene.add(floating({away, 0}, shape, {-speed, 0}), shape);
+          } else {
+            scene.add(immovable({away, 0}), boxShape(0.5, 0.5));
+          }
+          const int joint = scene.join({}, kind, one, other, {0, 1}, {0, -1});
+          for (int tick = 0; tick < 8; ++tick) {
+            scene.ticks(1);
+            EXPECT_LE(scene.gap(joint), 0.15 + 0.03 * speed)
+                << static_cast<int>(kind) << ' ' << speed << ' ' << i << ' ' << is_hit << ' ' << tick;
+          }
+        }
+      }
+    }
+  }
+}
+
 // The crates that are hit push others. The ram behind them is as fast, but does not move into them.
 TEST(SubstepFast, RamDoesNotPenetrateThePushedCrates) {
   SubstepScene scene;
