@@ -60,6 +60,8 @@ class SubstepJoints : public JointStore {
   /// Call when velocity changes were multiplied by these factors, by state. Multiplies the impulses kept for
   /// the next sub-step, too, and stops the speeds along the joints again.
   void scale(std::span<const float> factors, std::span<SubstepState> states, ContactRows& rows);
+  /// Returns a number that the movable bodies of a group of joints share, for one of these bodies.
+  int groupOf(int body) { return m_sets.rootOf(body); }
   /// Calls visit(a, b) for every joint of this step; a is −1 for a mouse joint.
   template <class Visit>
   void visitLinks(Visit visit) const {

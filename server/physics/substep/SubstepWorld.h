@@ -239,6 +239,7 @@ class SubstepWorld final : public RigidStepper {
   bool isClear(const SubstepBody& body, std::span<const ConvexShape> shapes, const RigidMotion& motion,
                double time, Vec2 moved, std::int32_t except);
   void stop(Fast& fast);
+  void stopJoined();
   std::int32_t carrierOf(const Fast& fast) const;
   static bool makeCore(const SubstepBody& body, ConvexShape& core);
   bool carry(Fast& fast, std::int32_t carrier, double time);
@@ -299,7 +300,6 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_active;   // ids of bodies that move in this step, by order
   std::vector<std::int32_t> m_drivers;  // the kinematic ones of these
   std::vector<std::int32_t> m_changed;
-  std::vector<std::int32_t> m_slowed;
   std::vector<Free> m_free_groups;
   std::vector<std::pair<std::int32_t, std::int32_t>> m_free_members;  // id and index in m_free_groups
   std::vector<Near> m_near;
