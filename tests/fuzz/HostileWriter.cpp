@@ -25,11 +25,11 @@ std::uint64_t low(std::uint64_t value, int bits) {
 
 }  // namespace
 
-void HostileWriter::begin() {
+void HostileWriter::begin(Kind first, int count) {
   constexpr int kKindBits = 5;
   const std::uint8_t bad = m_script.byte();
   m_out.clear();
-  m_bad = static_cast<Kind>(bad & ((1 << kKindBits) - 1));
+  m_bad = static_cast<Kind>(static_cast<int>(first) + (bad & ((1 << kKindBits) - 1)) % count);
   m_good_before = bad >> kKindBits;
 }
 
@@ -315,7 +315,7 @@ void HostileWriter::object() {
 }
 
 std::string HostileWriter::snapshot(std::uint32_t number, std::uint32_t tick) {
-  begin();
+  begin(Kind::kCell, 32);
   m_out.bits(number & 0xFFFF, 16);
   m_out.bits(tick & 0xFFFF, 16);
   m_out.bits(0, 2);
@@ -364,7 +364,7 @@ void HostileWriter::input(bool first) {
 }
 
 std::string HostileWriter::update() {
-  begin();
+  begin(Kind::kMissing, 7);
   if (flag()) {
     field(16);
     mask();

@@ -50,7 +50,7 @@ class HostileWriter {
     kOrder,
     kObjects,
     kId,
-    kMissing,
+    kMissing,  // from here to kMouse: in updates
     kInputs,
     kTicks,
     kBehind,
@@ -61,7 +61,8 @@ class HostileWriter {
     kSelector
   };
 
-  void begin();
+  /// Reads which field is bad: one of the `count` kinds from `first` on.
+  void begin(Kind first, int count);
   std::uint64_t any();
   /// Chooses a number of at most `most`, or, in the bad field, any number, often one just beyond `limit`.
   std::uint64_t choose(Kind kind, std::uint64_t most, std::uint64_t limit);
