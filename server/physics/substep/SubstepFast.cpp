@@ -338,7 +338,7 @@ void SubstepWorld::stop(Fast& fast) {
   }
 }
 
-// Stops the bodies that joints connect to a stopped one at the same time, so that the joints do not open.
+// Stops the bodies that joints connect to a stopped one as early as that one, so that the joints do not open.
 void SubstepWorld::stopJoined() {
   std::vector<double>& least = m_path_order;  // by group
   least.assign(m_joints.isEmpty() ? 0 : m_bodies.size(), 1);
