@@ -369,7 +369,6 @@ std::string HostileWriter::update() {
     field(16);
     mask();
   }
-  if (flag()) field(8);
   if (flag()) field(64);
   field(1);
   const std::uint64_t inputs = golomb(Kind::kInputs, 0, kMaxUpdateInputs);
