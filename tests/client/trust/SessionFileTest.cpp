@@ -1,7 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -61,11 +58,8 @@ TEST_F(SessionFileTest, NextClientFindsTheFileOfAKilledClient) {
   first->save(session("token"), now);
   first->save(session(another), now);
   EXPECT_EQ(files().size(), 1u) << "a new token takes the place of the old one";
-  struct stat facts {};
-  ASSERT_EQ(stat(files()[0].c_str(), &facts), 0);
-  EXPECT_EQ(facts.st_mode & 0777, 0600u);
-  ASSERT_EQ(stat(directory.c_str(), &facts), 0);
-  EXPECT_EQ(facts.st_mode & 0777, 0700u);
+  EXPECT_EQ(test::modeOf(files()[0]), 0600u);
+  EXPECT_EQ(test::modeOf(directory), 0700u);
   EXPECT_EQ(open()->tokenFor(keyOf('a')), "") << "not while it runs";
   first.reset();
   auto second = open();
@@ -216,28 +210,6 @@ TEST_F(SessionFileTest, AFailureToWriteIsReportedOnce) {
   for (int i = 0; i < 3; ++i) file->save(session("token"), now);
   file->refresh(now + 1h);
   EXPECT_EQ(file->problems().size(), 1u);
-}
-
-TEST_F(SessionFileTest, TheLockEndsWithTheProcess) {
-  int ready[2];
-  ASSERT_EQ(pipe(ready), 0);
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    SessionFile file(directory, kServer, std::nullopt, now);
-    file.save(session("token"), now);
-    [[maybe_unused]] const auto written = write(ready[1], "x", 1);
-    pause();
-    _exit(0);
-  }
-  char byte = 0;
-  ASSERT_EQ(read(ready[0], &byte, 1), 1);
-  EXPECT_EQ(open()->tokenFor(keyOf('a')), "");
-  kill(child, SIGKILL);
-  waitpid(child, nullptr, 0);
-  close(ready[0]);
-  close(ready[1]);
-  EXPECT_EQ(open()->tokenFor(keyOf('a')), "token");
 }
 
 TEST_F(SessionFileTest, LiesInTheStateDirectory) {

@@ -1,9 +1,7 @@
 // The command line of dfserver: mistakes are errors instead of starting a wrong server.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -66,12 +64,8 @@ TEST(HostOptions, RereadingThrowsInsteadOfPrinting) {
   const char* const together[] = {"dfserver", "--qr"};
   EXPECT_THROW(readHostOptions(2, together), OptionError);
   const char* const unknown[] = {"dfserver", "--max-plyers", "3"};
-  try {
-    readHostOptions(3, unknown);
-    ADD_FAILURE() << "it was taken";
-  } catch (const OptionError& error) {
-    EXPECT_STREQ(error.what(), "there is no option --max-plyers; did you mean --max-players?");
-  }
+  EXPECT_EQ(test::errorOf<OptionError>([&] { readHostOptions(3, unknown); }),
+            "there is no option --max-plyers; did you mean --max-players?");
 }
 
 TEST(HostOptions, ReloadAppliesChangeableOptions) {
@@ -242,10 +236,15 @@ TEST(HostOptions, PublicMetricsAddressNeedsAnExplicitOption) {
   EXPECT_EQ(parse({"--metrics-hosts", "a b"}, options), CommandLine::kUsageError);
 }
 
-TEST(HostOptions, PasswordReadableByAllUsersCausesAWarning) {
+class ConfigFileTest : public testing::Test {
+ protected:
+  const test::TempFolder folder;
+  const std::string path = folder / "server.conf";
+};
+
+TEST_F(ConfigFileTest, PasswordReadableByAllUsersCausesAWarning) {
   namespace fs = std::filesystem;
-  const std::string path = testing::TempDir() + "naiad_host_options-" + std::to_string(getpid()) + ".conf";
-  const auto warnings = [&path](const std::string& text, fs::perms perms) {
+  const auto warnings = [this](const std::string& text, fs::perms perms) {
     std::ofstream(path) << text;
     fs::permissions(path, perms);
     HostOptions options;
@@ -263,7 +262,6 @@ TEST(HostOptions, PasswordReadableByAllUsersCausesAWarning) {
   EXPECT_TRUE(warnings("password = sesame\n", fs::perms::owner_all).empty());
   EXPECT_TRUE(warnings("ticks = 3\n", kOpen).empty());
   EXPECT_TRUE(warnings("password = $argon2id$v=19$m=8,t=1,p=1$c2FsdHNhbHQ$aGFzaA\n", kOpen).empty());
-  std::remove(path.c_str());
 }
 
 /// Options of a game program: its df-config.txt, and an environment without the variables used here.
@@ -282,12 +280,7 @@ class ProgramOptions : public testing::Test {
   }
   std::string complaint() {
     options = {};
-    try {
-      read();
-    } catch (const OptionError& error) {
-      return error.what();
-    }
-    return {};
+    return test::errorOf<OptionError>([this] { read(); });
   }
 
   std::map<std::string, std::string> config;
@@ -393,8 +386,7 @@ std::string printed(const std::vector<const char*>& arguments, CommandLine wante
 }
 
 // Checks that each line of the example is valid without its leading #, and sets the default.
-TEST(HostOptions, TheExampleOfAConfigurationHasTheDefaults) {
-  const std::string path = testing::TempDir() + "naiad-example-" + std::to_string(getpid());
+TEST_F(ConfigFileTest, TheExampleOfAConfigurationHasTheDefaults) {
   std::istringstream lines(printed({"--option-page", "config"}));
   std::ofstream example(path);
   int settings = 0;
@@ -406,11 +398,9 @@ TEST(HostOptions, TheExampleOfAConfigurationHasTheDefaults) {
   example.close();
   EXPECT_GT(settings, 25);
   EXPECT_EQ(printed({"--config", path.c_str(), "--print-config"}), printed({"--print-config"}));
-  std::remove(path.c_str());
 }
 
-TEST(HostOptions, PrintedConfigurationCanBeReadAgain) {
-  const std::string path = testing::TempDir() + "naiad-printed-" + std::to_string(getpid());
+TEST_F(ConfigFileTest, PrintedConfigurationCanBeReadAgain) {
   const std::vector<const char*> given{"--server-name", "a # \"b\"",     "--port",      "0",
                                        "--qr",          "--web-address", "https://x/#y"};
   std::vector<const char*> words = given;
@@ -419,7 +409,6 @@ TEST(HostOptions, PrintedConfigurationCanBeReadAgain) {
   EXPECT_TRUE(test::has(first, "\nport = 0\n"));
   std::ofstream(path) << first;
   EXPECT_EQ(printed({"--config", path.c_str(), "--print-config"}), first);
-  std::remove(path.c_str());
 }
 
 TEST(HostOptions, APasswordIsNotPrinted) {
@@ -428,8 +417,7 @@ TEST(HostOptions, APasswordIsNotPrinted) {
   EXPECT_TRUE(test::has(text, "# password is set, but not printed\n"));
 }
 
-TEST(HostOptions, AConfigurationIsCheckedWithoutAServer) {
-  const std::string path = testing::TempDir() + "naiad-checked-" + std::to_string(getpid());
+TEST_F(ConfigFileTest, AConfigurationIsCheckedWithoutAServer) {
   std::ofstream(path) << "prot = 1\n\nmax-players = many\n";
   testing::internal::CaptureStderr();
   HostOptions options;
@@ -439,14 +427,13 @@ TEST(HostOptions, AConfigurationIsCheckedWithoutAServer) {
   EXPECT_TRUE(test::has(said, "dfserver: " + path + ":3: max-players: "));
   const Games games;
   const test::TempFolder temp;
-  const std::string folder = temp.string();
+  const std::string state = temp.string();
   std::ofstream(path) << "port = 1\ngame = hello\n";
-  EXPECT_EQ(printed({"--config", path.c_str(), "--check-config", "--state", folder.c_str(), "--identity",
-                     folder.c_str()}),
+  EXPECT_EQ(printed({"--config", path.c_str(), "--check-config", "--state", state.c_str(), "--identity",
+                     state.c_str()}),
             "");
   std::ofstream(path) << "certificate = x\n";
   printed({"--config", path.c_str(), "--check-config"}, CommandLine::kUsageError);
-  std::remove(path.c_str());
 }
 
 TEST(HostOptions, UnknownEnvironmentVariableCausesAWarning) {
@@ -513,16 +500,14 @@ TEST(SshDoor, ReturnsTheSshCommand) {
 }
 
 TEST(MetricsAddress, IsANumericAddressAndAPort) {
-  const auto four = MetricsAddress::parse("127.0.0.1:9100");
-  ASSERT_TRUE(four);
-  EXPECT_EQ(four->address, "127.0.0.1");
-  EXPECT_EQ(four->port, 9100);
-  EXPECT_EQ(four->hostText(), "127.0.0.1");
-  const auto six = MetricsAddress::parse("[::1]:0");
-  ASSERT_TRUE(six);
-  EXPECT_EQ(six->address, "::1");
-  EXPECT_EQ(six->port, 0);
-  EXPECT_EQ(six->hostText(), "[::1]");
+  for (const auto& [text, address, port, host] :
+       {std::tuple{"127.0.0.1:9100", "127.0.0.1", 9100, "127.0.0.1"}, {"[::1]:0", "::1", 0, "[::1]"}}) {
+    const auto parsed = MetricsAddress::parse(text);
+    ASSERT_TRUE(parsed) << text;
+    EXPECT_EQ(parsed->address, address);
+    EXPECT_EQ(parsed->port, port);
+    EXPECT_EQ(parsed->hostText(), host);
+  }
 }
 
 TEST(MetricsAddress, RejectsInvalidAddresses) {
@@ -534,20 +519,19 @@ TEST(MetricsAddress, RejectsInvalidAddresses) {
 }
 
 TEST(MetricsAddress, TellsPrivateAddressesFromPublicOnes) {
+  const auto isPrivate = [](const char* text) {
+    const auto address = MetricsAddress::parse(text);
+    EXPECT_TRUE(address) << text;
+    return address && address->is_private;
+  };
   for (const char* text :
        {"127.0.0.1:1", "127.255.0.9:1", "10.1.2.3:1", "172.16.0.1:1", "172.31.255.255:1", "192.168.7.7:1",
-        "169.254.0.1:1", "[::1]:1", "[fd00::1]:1", "[fe80::1]:1", "[::ffff:10.0.0.1]:1"}) {
-    const auto address = MetricsAddress::parse(text);
-    ASSERT_TRUE(address) << text;
-    EXPECT_TRUE(address->is_private) << text;
-  }
+        "169.254.0.1:1", "[::1]:1", "[fd00::1]:1", "[fe80::1]:1", "[::ffff:10.0.0.1]:1"})
+    EXPECT_TRUE(isPrivate(text)) << text;
   for (const char* text :
        {"0.0.0.0:1", "[::]:1", "8.8.8.8:1", "172.15.255.255:1", "172.32.0.1:1", "192.169.0.1:1", "11.0.0.1:1",
-        "128.0.0.1:1", "[2001:db8::1]:1", "[fec0::1]:1", "[::ffff:8.8.8.8]:1"}) {
-    const auto address = MetricsAddress::parse(text);
-    ASSERT_TRUE(address) << text;
-    EXPECT_FALSE(address->is_private) << text;
-  }
+        "128.0.0.1:1", "[2001:db8::1]:1", "[fec0::1]:1", "[::ffff:8.8.8.8]:1"})
+    EXPECT_FALSE(isPrivate(text)) << text;
 }
 
 TEST(MetricsHosts, AllowLocalhostNumericAddressesAndConfiguredNames) {
