@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "Guarded.h"
 #include "Measurement.h"
 #include "Records.h"
 #include "ResultLine.h"
@@ -19,16 +19,7 @@ namespace {
 constexpr const char* kUsage =
     "usage: naiad_lab [--quick] [--method NAME]... [--substeps N]... [--runs N] [--output DIR] [PROBLEM...]\n"
     "       naiad_lab --list\n"
-    "\n"
-    "  PROBLEM        a number or a name (default: all)\n"
-    "  --quick        only 1, 4 and 16 sub-steps, and no long runs, to check that the problems work\n"
-    "  --method NAME  only this method; may be repeated\n"
-    "  --substeps N   only this many sub-steps per tick; may be repeated\n"
-    "  --runs N       timed runs of each point, 2 or more (default: 5; 3 with thousands of bodies)\n"
-    "  --output DIR   folder for points.csv and problems.json (default: none are written)\n"
-    "  --list         list the problems and methods\n"
-    "\n"
-    "Exit codes: 0 measured, 1 the product missed a target, or something failed, 2 wrong usage.\n";
+    "deploy/lab --help explains the arguments and the exit codes. Without --output, no files are written.\n";
 
 constexpr int kRuns = 5;
 constexpr int kFewestRuns = 2;
@@ -211,13 +202,10 @@ int main(int argc, char** argv) {
   }
   Options options;
   if (!read(arguments, options)) return usage(stderr, 2);
-  try {
+  return bench::guarded("naiad_lab", [&] {
     bench::reserveStdout();
     lab::Records records(options.output, options.runs);
     run(options, records);
     return records.allMet() ? 0 : 1;
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "naiad_lab: %s\n", e.what());
-    return 1;
-  }
+  });
 }
