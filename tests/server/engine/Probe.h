@@ -12,6 +12,7 @@
 #include "engine/events/EventOut.h"
 #include "engine/managers/GameManager.h"
 #include "engine/managers/WorldManager.h"
+#include "engine/sprites/Sprite.h"
 #include "engine/world/Capture.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/EventDispatch.h"
@@ -51,6 +52,22 @@ class WorldTest : public ::testing::Test {
     event.setKey(key);
     event.setKeyboardAction(action);
     WM.onEvent(&event);
+  }
+  /// Runs a tick in which a player joins. Returns their id.
+  std::uint32_t joined(const std::string& name, Color color = RED) {
+    const std::uint32_t player = world.input().join(name, color);
+    world.tick();
+    return player;
+  }
+  /// Runs a tick in which these players press a key, in this order.
+  void pressedBy(std::initializer_list<std::uint32_t> players, Keyboard::Key key) {
+    for (const std::uint32_t player : players) world.input().key(player, key, KEY_PRESSED);
+    world.tick();
+  }
+  /// Runs a tick in which a player leaves.
+  void left(std::uint32_t player) {
+    world.input().leave(player);
+    world.tick();
   }
   /// Returns the contents of the window's `row`, without blanks, after each of `ticks` ticks.
   std::string shown(int row, int ticks) {
@@ -110,8 +127,14 @@ class Probe : public Object {
   std::vector<std::string>* m_p_received;
 };
 
-inline bool isCollision(const Event& e) {
-  return e.getType() == COLLISION_EVENT;
+/// Makes a sprite whose frames have one row each.
+inline Sprite spriteOf(const std::vector<std::string>& frames, int slowdown = 1) {
+  Sprite sprite(static_cast<int>(frames.size()));
+  sprite.setWidth(static_cast<int>(frames[0].size()));
+  sprite.setHeight(1);
+  sprite.setSlowdown(slowdown);
+  for (const std::string& frame : frames) sprite.addFrame(Frame(sprite.getWidth(), 1, frame));
+  return sprite;
 }
 
 inline void expectAt(const Object& o, double x, double y) {

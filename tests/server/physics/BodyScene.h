@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "physics/body/Body.h"
 #include "physics/body/BodyLayer.h"
 #include "physics/body/EventContactEnd.h"
+#include "physics/body/Field.h"
 #include "physics/body/PhysicsManager.h"
 #include "physics/body/Seconds.h"
 
@@ -102,20 +104,6 @@ class BodyScene : public PhysicsWorld {
   }
 };
 
-/// A second world, which is current instead of the test's world while this is in scope.
-struct OwnWorld {
-  explicit OwnWorld(double aspect = 1) {
-    world.log().setSink([](const std::string&) {});
-    PM.setAspect(aspect);
-  }
-  OwnWorld(const OwnWorld&) = delete;
-  OwnWorld& operator=(const OwnWorld&) = delete;
-  ~OwnWorld() { world.shutDown(); }
-
-  World world;
-  World::Scope scope{world};
-};
-
 /// Position, velocity, angle and spin.
 using BodyBits = std::array<std::uint64_t, 6>;
 inline BodyBits stateBits(const Body* p_body) {
@@ -123,6 +111,63 @@ inline BodyBits stateBits(const Body* p_body) {
   return std::bit_cast<BodyBits>(
       std::array{place.x(), place.y(), velocity.x(), velocity.y(), p_body->getAngle(), p_body->getSpin()});
 }
+
+/// A second world, which is current instead of the test's world while this is in scope.
+struct OwnWorld {
+  explicit OwnWorld(double aspect = 1, Vector gravity = Vector(), Accuracy accuracy = ACCURACY_DEFAULT) {
+    world.log().setSink([](const std::string&) {});
+    PM.setAspect(aspect);
+    PM.setGravity(gravity);
+    PM.setAccuracy(accuracy);
+  }
+  OwnWorld(const OwnWorld&) = delete;
+  OwnWorld& operator=(const OwnWorld&) = delete;
+  ~OwnWorld() { world.shutDown(); }
+  /// Runs some ticks, each after a call of `before` with its number. Returns the bodies' states after each.
+  std::vector<BodyBits> states(int ticks, const std::vector<Body*>& bodies,
+                               const std::function<void(int tick)>& before = {}) {
+    std::vector<BodyBits> all;
+    for (int tick = 0; tick < ticks; ++tick) {
+      if (before) before(tick);
+      world.update();
+      for (const Body* p_body : bodies) all.push_back(stateBits(p_body));
+    }
+    return all;
+  }
+
+  World world;
+  World::Scope scope{world};
+};
+
+/// A Field by a function of displacement and velocity. Counts its calls.
+class FieldOf : public Field {
+ public:
+  using Pull = std::function<Vector(Vector displacement, Vector velocity)>;
+  explicit FieldOf(Pull pull) : m_pull(std::move(pull)) {}
+  Vector accelerationAt(Vector displacement, Vector velocity, double /*time*/) const override {
+    ++calls;
+    return m_pull(displacement, velocity);
+  }
+  mutable std::int64_t calls = 0;
+
+ private:
+  Pull m_pull;
+};
+
+/// An Object that calls a function with the other Object when a contact begins. The function may delete both.
+template <class Base>
+class Touchy : public Base {
+ public:
+  using Base::Base;
+  int eventHandler(const Event* p_e) override {
+    if (p_e->getType() != COLLISION_EVENT || !on_contact) return 0;
+    const auto* p_c = static_cast<const EventCollision*>(p_e);
+    const auto handler = on_contact;  // a copy, because the function may delete this
+    handler(p_c->getObject1() == this ? p_c->getObject2() : p_c->getObject1());
+    return 1;
+  }
+  std::function<void(Object* p_other)> on_contact;
+};
 
 /// An Object that records its contact events.
 template <class Base>

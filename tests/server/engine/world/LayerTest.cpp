@@ -10,7 +10,6 @@ namespace {
 /// A layer that lets its bodies fall: each tick moves them by their velocity plus half a tick's gravity.
 class Falling : public Layer {
  public:
-  static constexpr double kGravity = 0.25;
   void step(World& world) override {
     ++steps;
     for (const ObjectKey key : bodies) {
@@ -29,6 +28,13 @@ class Falling : public Layer {
   }
   int steps = 0;
   std::vector<ObjectKey> bodies;
+};
+
+/// A layer whose step is a function.
+struct StepLayer : Layer {
+  explicit StepLayer(std::function<void(World&)> its_step) : on_step(std::move(its_step)) {}
+  void step(World& world) override { on_step(world); }
+  std::function<void(World&)> on_step;
 };
 
 class Layers : public test::WorldTest {
@@ -67,24 +73,6 @@ TEST_F(Layers, OnlyTheLayerMovesItsBodies) {
   EXPECT_EQ(body.getPosition(), Vector(2, 0.375)) << "no body any more: the book's";
 }
 
-TEST_F(Layers, AClientCanComputeABodysFlight) {
-  Object body;
-  layer->add(body);
-  world.store().setWatched(true);
-  body.setVelocity(Vector(0.5, -2));
-  world.tick();
-  ASSERT_EQ(world.picture().view().changed.size(), 1u);
-  FixedVector p = world.picture().view().changed[0].position;
-  FixedVector v = world.picture().view().changed[0].velocity;
-  const FixedVector a = world.picture().view().changed[0].acceleration;
-  for (int i = 0; i < 100; ++i) {
-    world.tick();
-    p = p + v;
-    v = v + a;
-    EXPECT_EQ(world.store().position(body.key().slot), p) << "after " << i << " ticks";
-  }
-}
-
 TEST_F(Layers, ABodyBlocksOthers) {
   Object body, plain;
   layer->add(body);
@@ -96,30 +84,12 @@ TEST_F(Layers, ABodyBlocksOthers) {
 }
 
 TEST_F(Layers, StepMarkedObjectIsDeletedInTheSameUpdate) {
-  class Reaper : public Layer {
-   public:
-    void step(World& world) override {
-      for (const ObjectKey key : doomed) world.objects().markForDelete(world.store().find(key));
-    }
-    std::vector<ObjectKey> doomed;
-  };
-  world.addLayer(std::make_unique<Reaper>());
-  auto* p_body = new Object;
-  const ObjectKey key = p_body->key();
-  world.findLayer<Reaper>()->doomed.push_back(key);
+  const ObjectKey key = (new Object)->key();
+  world.addLayer(
+      std::make_unique<StepLayer>([key](World& its) { its.objects().markForDelete(its.store().find(key)); }));
   world.update();
   EXPECT_EQ(world.store().find(key), nullptr);
 }
-
-/// Notes its steps.
-class NotingLayer : public Layer {
- public:
-  explicit NotingLayer(test::Received& words) : m_words(words) {}
-  void step(World& /*world*/) override { m_words.push_back("layer"); }
-
- private:
-  test::Received& m_words;
-};
 
 class TickAlone : public test::WorldTest {
  protected:
@@ -127,9 +97,8 @@ class TickAlone : public test::WorldTest {
     probe.registerInterest(STEP_EVENT);
     probe.registerInterest(KEYBOARD_EVENT);
     probe.on_draw = [this](test::Probe&) { received.push_back("draw"); };
-    world.addLayer(std::make_unique<NotingLayer>(received));
-    ann = world.input().join("ann", RED);
-    world.tick();
+    world.addLayer(std::make_unique<StepLayer>([this](World& /*its*/) { received.push_back("layer"); }));
+    ann = joined("ann");
     received.clear();
   }
 
@@ -138,8 +107,7 @@ class TickAlone : public test::WorldTest {
 };
 
 TEST_F(TickAlone, StagesRunInOrderAndPausedTickOnlyDraws) {
-  world.input().key(ann, Keyboard::A, KEY_PRESSED);
-  world.tick();
+  pressedBy({ann}, Keyboard::A);
   EXPECT_EQ(received, (test::Received{"probe:df-step", "probe:df-keyboard", "layer", "draw"}));
   EXPECT_EQ(world.getStepCount(), 2);
   world.setPaused(true);

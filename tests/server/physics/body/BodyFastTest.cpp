@@ -50,9 +50,7 @@ TEST_F(BodyFast, RestingCrateGetsOneContactEvent) {
 
 TEST_F(BodyFast, FreeFlightIsEqualAtBothLevels) {
   const auto fly = [](Accuracy accuracy) {
-    OwnWorld own;
-    PM.setGravity(perSecondSquared(Vector(0, 10)));
-    PM.setAccuracy(accuracy);
+    OwnWorld own(1, perSecondSquared(Vector(0, 10)), accuracy);
     wall(Vector(0, 40), Vector(100, 5));
     std::vector<Body*> bodies;
     for (int i = 0; i < 6; ++i) {
@@ -65,12 +63,7 @@ TEST_F(BodyFast, FreeFlightIsEqualAtBothLevels) {
     }
     Body* p_resting = crate(Vector(-50, 34.5));  // has a contact, far from the others
     p_resting->setTurning();
-    std::vector<BodyBits> seen;
-    for (int tick = 0; tick < 60; ++tick) {
-      own.world.update();
-      for (const Body* p_body : bodies) seen.push_back(stateBits(p_body));
-    }
-    return seen;
+    return own.states(60, bodies);
   };
   EXPECT_EQ(fly(ACCURACY_DEFAULT), fly(ACCURACY_FAST));
 }
@@ -149,25 +142,6 @@ TEST_F(BodyFast, ASleepingHeapPublishesNothing) {
   PM.setSleeping(false);
   ticks(10);
   EXPECT_GE(layer().substepCounters().contacts, contacts + 80);  // every contact is solved in every tick
-}
-
-TEST_F(BodyFast, DeletedFloorLetsBodiesFallAtBothLevels) {
-  wall(Vector(0, 10), Vector(50, 5));
-  for (const Accuracy accuracy : {ACCURACY_FAST, ACCURACY_DEFAULT}) {
-    SCOPED_TRACE(accuracy);
-    PM.setAccuracy(accuracy);
-    Object* p_floor = wall(Vector(0, 1), Vector(5, 1));
-    auto* p_crate = turningCrate<Listener>(Vector(0, -0.5));
-    ticks(60);
-    EXPECT_NEAR(p_crate->getPosition().y(), -0.5, accuracy == ACCURACY_FAST ? 5e-3 : 1e-3);
-    delete p_floor;
-    ticks(60);
-    EXPECT_NEAR(p_crate->getPosition().y(), 4.5, 1e-2);
-    if (accuracy == ACCURACY_FAST) {
-      EXPECT_EQ(p_crate->begins(), 2);
-    }
-    delete p_crate;
-  }
 }
 
 }  // namespace

@@ -6,9 +6,7 @@
 namespace naiad::physics {
 namespace {
 
-using test::JointScene;
-using test::kDown;
-using test::kTick;
+using namespace test;
 
 TEST(RigidJoint, WeldMakesOneBodyOfTwo) {
   JointScene scene;
@@ -29,10 +27,9 @@ TEST(RigidJoint, WeldMakesOneBodyOfTwo) {
 }
 
 TEST(RigidJoint, SliderAllowsOneDirectionAndNoRotation) {
-  JointScene scene = test::nailed();
+  JointScene scene = nailed();
   scene.rigid({0, 0}, 1, 1);
-  Joint slider = JointScene::joint(JointKind::kSlider, 0, 1);
-  slider.axis = {0.8, 0.6};
+  const Joint slider = jointOf(JointKind::kSlider, 0, 1, {.axis = {0.8, 0.6}});
   scene.join(slider);
   for (int i = 0; i < 60; ++i) {
     scene.change(1).torque = 3 * kTick * kTick;
@@ -46,13 +43,10 @@ TEST(RigidJoint, SliderAllowsOneDirectionAndNoRotation) {
 }
 
 TEST(RigidJoint, MotorReachesItsSpeedWithItsTorque) {
-  JointScene scene = test::nailed();
+  JointScene scene = nailed();
   scene.rigid({0, 0}, 1, 2);
   scene.join(JointKind::kHinge, 0, 1);
-  Joint motor = JointScene::joint(JointKind::kMotor, 0, 1);
-  motor.speed = 5 * kTick;
-  motor.max_force = 4 * kTick * kTick;
-  scene.join(motor);
+  scene.join(jointOf(JointKind::kMotor, 0, 1, {.speed = 5 * kTick, .max_force = 4 * kTick * kTick}));
   for (int i = 0; i < 30; ++i) scene.step({});
   EXPECT_NEAR(scene.spin(1), 2, 1e-9);  // torque / inertia · time
   for (int i = 0; i < 60; ++i) scene.step({});
@@ -60,13 +54,10 @@ TEST(RigidJoint, MotorReachesItsSpeedWithItsTorque) {
 }
 
 TEST(RigidJoint, AngleLimitsStopBothWays) {
-  JointScene scene = test::nailed();
+  JointScene scene = nailed();
   scene.rigid({1, 0}, 1, 0.1);
   scene.joinAt(JointKind::kHinge, 0, 1, {0, 0});
-  Joint limit = JointScene::joint(JointKind::kAngleLimit, 0, 1);
-  limit.lower = -0.5;
-  limit.upper = 0.7;
-  scene.join(limit);
+  scene.join(jointOf(JointKind::kAngleLimit, 0, 1, {.lower = -0.5, .upper = 0.7}));
   for (int i = 0; i < 90; ++i) {
     scene.step(kDown);
     ASSERT_LE(scene.angle(1), 0.7 + 1e-9);
@@ -88,12 +79,10 @@ TEST(RigidJoint, SpringFollowsTheDampedCosine) {
     double bound;
   } kCases[] = {{4, 0, 300, 1e-3}, {25, 2, 150, 2e-3}};
   for (const auto& its : kCases) {
-    JointScene scene = test::nailed();
+    JointScene scene = nailed();
     scene.point({3, 0});
-    Joint spring = JointScene::joint(JointKind::kSpring, 0, 1, 2);
-    spring.stiffness = its.stiffness * kTick * kTick;
-    spring.damping = its.damping * kTick;
-    scene.join(spring);
+    const double stiffness = its.stiffness * kTick * kTick, damping = its.damping * kTick;
+    scene.join(jointOf(JointKind::kSpring, 0, 1, {.length = 2, .stiffness = stiffness, .damping = damping}));
     const double decay = its.damping / 2, w = std::sqrt(its.stiffness - decay * decay);
     double worst = 0;
     for (int i = 1; i <= its.ticks; ++i) {
@@ -110,14 +99,13 @@ TEST(RigidJoint, SpringEnergyStaysBoundedAtAnyStiffness) {
   for (const double stiffness : {1e2, 1e4, 1e6, 1e8, 1e10}) {
     for (const double damping : {0.0, 0.1 * std::sqrt(stiffness), 10 * std::sqrt(stiffness)}) {
       for (const double rest : {0.0, 1.0}) {
-        JointScene scene = test::nailed();
+        JointScene scene = nailed();
         scene.point({1.1, 0});
         scene.point({2.1, 0}, 0.01);
         for (int i = 0; i < 2; ++i) {
-          Joint spring = JointScene::joint(JointKind::kSpring, i, i + 1, rest);
-          spring.stiffness = stiffness * kTick * kTick;
-          spring.damping = damping * kTick;
-          scene.join(spring);
+          const double k = stiffness * kTick * kTick;
+          scene.join(jointOf(JointKind::kSpring, i, i + 1,
+                             {.length = rest, .stiffness = k, .damping = damping * kTick}));
         }
         const double most = 0.5 * stiffness * (rest > 0 ? 0.01 : 1.1 * 1.1 + 1) + 4000 + 1e6 / stiffness;
         for (int i = 0; i < 300; ++i) {
@@ -133,11 +121,10 @@ TEST(RigidJoint, SpringEnergyStaysBoundedAtAnyStiffness) {
 TEST(RigidJoint, MouseDragsWithAtMostItsForce) {
   JointScene scene;
   scene.point({0, 0}, 0.5);
-  Joint mouse = JointScene::joint(JointKind::kMouse, -1, 0);
+  const double stiffness = 100 * kTick * kTick, damping = 30 * kTick, force = 6 * kTick * kTick;
+  Joint mouse =
+      jointOf(JointKind::kMouse, -1, 0, {.stiffness = stiffness, .damping = damping, .max_force = force});
   mouse.target = placeAt({4, 0});
-  mouse.stiffness = 100 * kTick * kTick;
-  mouse.damping = 30 * kTick;
-  mouse.max_force = 6 * kTick * kTick;
   const int id = scene.join(mouse);
   for (int i = 0; i < 15; ++i) scene.step({});
   EXPECT_NEAR(scene.velocity(0).x, 1.5, 1e-9);  // 3 · ½
@@ -151,11 +138,9 @@ TEST(RigidJoint, MouseDragsWithAtMostItsForce) {
 }
 
 TEST(RigidJoint, JointForceIsTheWeightAndOverloadBreaks) {
-  JointScene scene = test::nailed();
+  JointScene scene = nailed();
   scene.point({0, 1}, 0.5);
-  Joint upper = JointScene::joint(JointKind::kDistance, 0, 1, 1);
-  upper.break_force = 25 * kTick * kTick;
-  scene.join(upper);
+  scene.join(jointOf(JointKind::kDistance, 0, 1, {.length = 1, .break_force = 25 * kTick * kTick}));
   scene.point({0, 2}, 1 / 0.4);
   scene.join(JointKind::kDistance, 1, 2, 1);
   for (int i = 0; i < 10; ++i) scene.step(kDown);
@@ -174,7 +159,7 @@ TEST(RigidJoint, JointForceIsTheWeightAndOverloadBreaks) {
 }
 
 TEST(RigidJoint, MovingAnchorCarriesItsPendulum) {
-  JointScene scene = test::nailed();
+  JointScene scene = nailed();
   scene.point({0, 1});
   scene.join(JointKind::kDistance, 0, 1, 1);
   scene.setVelocity(0, {2, 0});
@@ -186,9 +171,9 @@ TEST(RigidJoint, MovingAnchorCarriesItsPendulum) {
 
 TEST(RigidJoint, InvalidJointsAreRefused) {
   const auto refused = [](const auto& change) {
-    JointScene scene = test::nailed();
+    JointScene scene = nailed();
     scene.point({1, 0});
-    Joint joint = JointScene::joint(JointKind::kDistance, 0, 1, 1);
+    Joint joint = jointOf(JointKind::kDistance, 0, 1, {.length = 1});
     change(joint);
     return scene.join(joint) == -1;
   };

@@ -15,14 +15,6 @@ using namespace test;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// Adds a crate that lies on the slope whose upward normal is `up`.
-int addCrateOnSlope(RigidWorld& world, double angle, Vec2 up) {
-  const ConvexShape crate = boxShape(0.5, 0.25);
-  RigidBody body = movable(0.25 * up, crate);
-  body.rotation = rotationBy(angle);
-  return world.add(body, crate);
-}
-
 TEST(RigidWorld, FrictionHoldsUpToItsAngle) {
   for (const double off : {-0.01, 0.01}) {
     RigidWorld world(sleepless());
@@ -332,11 +324,7 @@ TEST(RigidWorld, ABridgeBearsItsLoad) {
   const int right = world.add(immovable({19, 0}), std::span<const ConvexShape>());
   int last = left, joints = 0;
   const auto hinge = [&](int a, int b, Vec2 on_a, Vec2 on_b) {
-    Joint joint;
-    joint.kind = JointKind::kHinge;
-    joint.a = a, joint.b = b;
-    joint.anchor_a = on_a, joint.anchor_b = on_b;
-    EXPECT_EQ(world.addJoint(joint), joints++);
+    EXPECT_EQ(world.addJoint(jointOf(JointKind::kHinge, a, b, {}, on_a, on_b)), joints++);
   };
   Vec2 end = {0, 0};  // at the start, the chain hangs in a V
   for (int i = 0; i < 20; ++i) {
@@ -383,11 +371,7 @@ TEST(RigidWorld, KineticEnergyNeverGrowsWithoutDrivers) {
     }
     const auto energy = [&] {
       double sum = 0;
-      for (int id = 0; id < count; ++id) {
-        const RigidBody& body = world.body(id);
-        sum += 0.5 / body.inverse_mass * lengthSquared(body.velocity) +
-               0.5 / body.inverse_inertia * body.spin * body.spin;
-      }
+      for (int id = 0; id < count; ++id) sum += kineticOf(world.body(id));
       return sum;
     };
     double most = energy();

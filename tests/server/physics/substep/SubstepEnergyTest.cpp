@@ -1,7 +1,5 @@
 // Impulses give no energy to a group, except that of drivers and springs.
 
-#include <algorithm>
-
 #include "SubstepScene.h"
 #include "tests/server/physics/SceneRandom.h"
 
@@ -9,11 +7,6 @@ namespace naiad::physics {
 namespace {
 
 using namespace test;
-
-double kineticOf(const RigidBody& body) {
-  return (body.inverse_mass > 0 ? 0.5 / body.inverse_mass * lengthSquared(body.velocity) : 0) +
-         (body.inverse_inertia > 0 ? 0.5 / body.inverse_inertia * body.spin * body.spin : 0);
-}
 
 // Elastic boxes that rotate in a closed room without gravity.
 struct Room : SubstepScene {
