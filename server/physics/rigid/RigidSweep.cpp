@@ -99,7 +99,8 @@ void RigidWorld::advance(int id, double time, double h) {
   const Pose pose = poseAt(id, time, h);
   s.displacement = pose.displacement;
   s.turn = pose.turn;
-  m_flights[at(m_extras[at(id)].flight)].time = time;
+  Flight& flight = m_flights[at(m_extras[at(id)].flight)];
+  flight.time = time;
 }
 
 void RigidWorld::hold(int id) {
@@ -306,7 +307,8 @@ void RigidWorld::land(int id, double h) {
   flight.has_landed = true;
 }
 
-// Applies the impulses of an impact at its time. The states have the velocities of the sub-step's middle.
+// Applies the impulses of an impact, at the velocities of that time. Those of the states are the velocities
+// of the middle of the sub-step.
 void RigidWorld::applyImpact(ContactConstraint& c, double time) {
   RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
   const double since = 2 * time - 1;
@@ -322,11 +324,13 @@ void RigidWorld::applyImpact(ContactConstraint& c, double time) {
       c.friction > 0 ? rub(c, rest_speed, rest_after) : bounce(c, m_states, rest_speed, rest_after);
   shift(-since);
   c.is_ballistic = c.restitution > 0 && c.may_fly && !rests;
-  // At rest on each other, they fall together, or not at all if one of them cannot fall.
-  const double share = a.inverse_mass / (a.inverse_mass + b.inverse_mass);
-  const Vec2 bend = bend_a != Vec2{} && bend_b != Vec2{} ? bend_a + share * (bend_b - bend_a) : Vec2{};
-  if (rests)
-    m_flights[at(m_extras[at(c.a)].flight)].bend = m_flights[at(m_extras[at(c.b)].flight)].bend = bend;
+  if (rests) {
+    // If one of them cannot fall, nor does the other. If both can, they fall together.
+    const bool do_fall = bend_a != Vec2{} && bend_b != Vec2{};
+    const double share = a.inverse_mass / (a.inverse_mass + b.inverse_mass);
+    const Vec2 bend = do_fall ? bend_a + share * (bend_b - bend_a) : Vec2{};
+    for (const int id : {c.a, c.b}) m_flights[at(m_extras[at(id)].flight)].bend = bend;
+  }
   for (std::int32_t i = 0; i < c.count; ++i) {
     ContactPoint& p = c.points[at(i)];
     p.total += p.normal_impulse;

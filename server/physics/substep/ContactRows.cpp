@@ -34,21 +34,35 @@ struct Moved {
   Lanes x, y, c, s;
 };
 
-// Returns four consecutive members of four states, from this one on, as four vectors.
-template <class Four>
-Four gather(std::span<const SubstepState> states, const std::array<std::int32_t, kLanes>& of,
-            float SubstepState::*first) {
-  std::array<Lanes, kLanes> v;
-  for (std::size_t i = 0; i < v.size(); ++i)
-    __builtin_memcpy(&v[i], &(states[at(of[i])].*first), sizeof v[i]);
-  transpose(v[0], v[1], v[2], v[3]);
-  return {v[0], v[1], v[2], v[3]};
+Lanes loadLow(const SubstepState& state) {
+  Lanes v;
+  __builtin_memcpy(&v, &state.vx, sizeof v);
+  return v;
+}
+Lanes loadHigh(const SubstepState& state) {
+  Lanes v;
+  __builtin_memcpy(&v, &state.x, sizeof v);
+  return v;
+}
+
+Body gather(std::span<const SubstepState> states, const std::array<std::int32_t, kLanes>& of) {
+  Body v = {loadLow(states[at(of[0])]), loadLow(states[at(of[1])]), loadLow(states[at(of[2])]),
+            loadLow(states[at(of[3])])};
+  transpose(v.vx, v.vy, v.spin, v.unused);
+  return v;
+}
+Moved gatherMoved(std::span<const SubstepState> states, const std::array<std::int32_t, kLanes>& of) {
+  Moved m = {loadHigh(states[at(of[0])]), loadHigh(states[at(of[1])]), loadHigh(states[at(of[2])]),
+             loadHigh(states[at(of[3])])};
+  transpose(m.x, m.y, m.c, m.s);
+  return m;
 }
 void scatter(std::span<SubstepState> states, const std::array<std::int32_t, kLanes>& of, Body v) {
   transpose(v.vx, v.vy, v.spin, v.unused);
-  const std::array<Lanes, kLanes> rows = {v.vx, v.vy, v.spin, v.unused};
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    __builtin_memcpy(&states[at(of[i])].vx, &rows[i], sizeof rows[i]);
+  __builtin_memcpy(&states[at(of[0])].vx, &v.vx, sizeof v.vx);
+  __builtin_memcpy(&states[at(of[1])].vx, &v.vy, sizeof v.vx);
+  __builtin_memcpy(&states[at(of[2])].vx, &v.spin, sizeof v.vx);
+  __builtin_memcpy(&states[at(of[3])].vx, &v.unused, sizeof v.vx);
 }
 
 }  // namespace
@@ -194,7 +208,7 @@ void ContactRows::Impulse::beginSubstep(Lanes least, Lanes most, Lanes most_tren
 void ContactRows::warmStart(std::span<SubstepState> states) {
   const Lanes unlimited = lanesOf(std::numeric_limits<float>::max());
   for (Block& k : m_blocks) {
-    Body a = gather<Body>(states, k.a, &SubstepState::vx), b = gather<Body>(states, k.b, &SubstepState::vx);
+    Body a = gather(states, k.a), b = gather(states, k.b);
     for (std::int32_t i = 0; i < k.points; ++i) {
       Point& p = k.point[at(i)];
       const Lanes most_trend = k.follows * smaller(p.normal.start, p.normal.now);
@@ -215,8 +229,7 @@ void ContactRows::warmStart(std::span<SubstepState> states) {
 
 // Updates the gaps after the bodies have moved; the levers rotate with their bodies.
 void ContactRows::updateGaps(Block& k, std::span<const SubstepState> states, float time) {
-  const Moved at_a = gather<Moved>(states, k.a, &SubstepState::x),
-              at_b = gather<Moved>(states, k.b, &SubstepState::x);
+  const Moved at_a = gatherMoved(states, k.a), at_b = gatherMoved(states, k.b);
   const Lanes x = at_b.x - at_a.x + time * k.vx, y = at_b.y - at_a.y + time * k.vy;
   for (std::int32_t i = 0; i < k.points; ++i) {
     Point& p = k.point[at(i)];
@@ -230,7 +243,7 @@ template <bool kIsSoft>
 void ContactRows::solveRows(std::span<SubstepState> states, float h, float time) {
   const Lanes zero = {}, one = lanesOf(1), inverse_h = lanesOf(1 / h);
   for (Block& k : m_blocks) {
-    Body a = gather<Body>(states, k.a, &SubstepState::vx), b = gather<Body>(states, k.b, &SubstepState::vx);
+    Body a = gather(states, k.a), b = gather(states, k.b);
     for (std::int32_t i = 0; i < k.points; ++i) {
       Point& p = k.point[at(i)];
       const Lanes vx = k.vx + (b.vx - b.spin * p.by) - (a.vx - a.spin * p.ay);
@@ -293,7 +306,7 @@ void ContactRows::bounce(std::span<SubstepState> states) {
     };
     const LaneMask is_any = isHit(k.point[0]) | isHit(k.point[1]);
     if ((is_any[0] | is_any[1] | is_any[2] | is_any[3]) == 0) continue;
-    Body a = gather<Body>(states, k.a, &SubstepState::vx), b = gather<Body>(states, k.b, &SubstepState::vx);
+    Body a = gather(states, k.a), b = gather(states, k.b);
     const auto missing = [&](const Point& p) {
       const Lanes vx = k.vx + (b.vx - b.spin * p.by) - (a.vx - a.spin * p.ay);
       const Lanes vy = k.vy + (b.vy + b.spin * p.bx) - (a.vy + a.spin * p.ax);

@@ -190,7 +190,7 @@ void SubstepEnergy::slow(std::span<SubstepState> states, double time, bool is_bo
     if (is_rounding) group.over = 0;
     if (!is_rounding) ++m_scaled;
   }
-  visitOver(states, [&](std::int32_t id, const Member& m, Group& group) {
+  visitOver(states, [&](std::int32_t id, const Member& m, const Group& group) {
     const Motion off = offOf(id, m, group);
     const Rigid& rigid = group.rigid;
     const double less = 1 - group.factor, turn = rigid.before.spin - rigid.after.spin;
@@ -199,10 +199,7 @@ void SubstepEnergy::slow(std::span<SubstepState> states, double time, bool is_bo
     SubstepState& s = states[at(id)];
     if (m.mass > 0) s.vx += static_cast<float>(velocity.x), s.vy += static_cast<float>(velocity.y);
     if (m.inertia > 0) s.spin += static_cast<float>(turn - less * off.spin);
-    if (!isJointed(m.group) && (less > kSlightly || turn != 0)) {
-      m_marks[at(id)] |= kSlowed;
-      if (group.first_slowed == 0) group.first_slowed = id;
-    }
+    if (!isJointed(m.group) && (less > kSlightly || turn != 0)) m_marks[at(id)] |= kSlowed;
     if (!isJointed(m.group) || group.factor > 1 - kRounding) return;
     m_factors[at(id)] = static_cast<float>(group.factor);
     m_has_factors = true;

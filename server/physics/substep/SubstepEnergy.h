@@ -27,8 +27,8 @@ class SubstepEnergy {
   void hold(std::int32_t state) { m_marks[at(state)] |= kWatched | kHeld; }
   /// True if the body was slowed in this step, which may have moved momentum between bodies of its group.
   bool isSlowed(std::int32_t state) const { return (m_marks[at(state)] & kSlowed) != 0; }
-  /// Returns the first slowed body of its group.
-  std::int32_t firstSlowedOf(std::int32_t state) const { return m_groups[at(groupOf(state))].first_slowed; }
+  /// Returns the lowest state of the body's group.
+  std::int32_t groupOf(std::int32_t state) const { return m_members[at(state)].group; }
   bool isWatched(std::int32_t state) const { return m_marks[at(state)] != 0; }
   /// Marks a body with a joint.
   void join(std::int32_t state) { m_marks[at(state)] |= kWatched | kJointed; }
@@ -83,7 +83,6 @@ class SubstepEnergy {
     double twice = 0;     // twice the energy of the motion that is slowed
     double rounding = 0;  // largest rounding error of the gain
     double factor = 1;
-    std::int32_t first_slowed = 0;
     Rigid rigid;
   };
   static constexpr std::uint8_t kWatched = 1, kHeld = 2, kIgnored = 4, kJointed = 8, kSlowed = 16;
@@ -98,8 +97,6 @@ class SubstepEnergy {
     __builtin_memcpy(&speeds, &state.vx, sizeof speeds);
     return speeds;
   }
-  // Returns the lowest state of the body's group.
-  std::int32_t groupOf(std::int32_t state) const { return m_members[at(state)].group; }
   // Returns the motion with these gained speeds, in the group's frame.
   Motion motionOf(std::int32_t state, Lanes speeds) const {
     return {m_velocities[at(state)] + Vec2{speeds[0], speeds[1]}, speeds[2]};

@@ -328,7 +328,10 @@ void SubstepWorld::stop(Fast& fast) {
     if (carrier < 0) carrier = carrierOf(fast);
   }
   if (carrier >= 0 && m_bodies[at(carrier)].state > 0 && carry(fast, carrier, first)) return;
-  if (p_met != nullptr && !p_met->is_stopped && advanceTogether(fast, *p_met, first)) return;
+  const auto isJoined = [&](const Fast& its) { return m_energy.isJoined(m_bodies[at(its.id)].state); };
+  if (p_met != nullptr && !p_met->is_stopped && !isJoined(fast) && !isJoined(*p_met) &&
+      advanceTogether(fast, *p_met, first))
+    return;
   for (Fast* const p_fast : {&fast, p_met}) {  // the fast body that was hit stops, too
     if (p_fast == nullptr || p_fast->carrier >= 0) continue;
     double& part = m_bodies[at(p_fast->id)].part;
@@ -338,7 +341,7 @@ void SubstepWorld::stop(Fast& fast) {
   }
 }
 
-// Stops the bodies that joints connect to a stopped one as early as that one, so that the joints do not open.
+// Stops the bodies that joints connect to a stopped one at the same time, so that the joints do not open.
 void SubstepWorld::stopJoined() {
   std::vector<double>& least = m_path_order;  // by group
   least.assign(m_joints.isEmpty() ? 0 : m_bodies.size(), 1);
@@ -406,7 +409,7 @@ void SubstepWorld::divert(Fast& fast, Vec2 path) {
 }
 
 // Gives two fast bodies that meet at `time` a common path from there on. If they stopped, bodies that fly
-// behind them would run into them. Returns false, without a change, if a joint or immovable body prevents it.
+// behind them would run into them. Returns false, without a change, if an immovable body is in the way.
 bool SubstepWorld::advanceTogether(Fast& one, Fast& other, double time) {
   // Only the ratio of the masses matters, so the inverse masses are exchanged.
   const double mass_of_other = m_bodies[at(one.id)].body.inverse_mass;
@@ -418,7 +421,7 @@ bool SubstepWorld::advanceTogether(Fast& one, Fast& other, double time) {
   for (const Fast* const p_fast : {&one, &other}) {
     const SubstepBody& b = m_bodies[at(p_fast->id)];
     const RigidMotion motion = {pathOf(*p_fast), b.body.rotation, wholeMotion(b).turn};
-    if (m_energy.isJoined(b.state) || !isClear(b, m_forms[b.form].shapes, motion, 0, {}, -1)) return false;
+    if (!isClear(b, m_forms[b.form].shapes, motion, 0, {}, -1)) return false;
   }
   for (Fast* const p_fast : {&one, &other}) divert(*p_fast, pathOf(*p_fast));
   approachAgain(one);

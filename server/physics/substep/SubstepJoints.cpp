@@ -460,10 +460,45 @@ void SubstepJoints::solveSoftly(std::span<SubstepState> states, ContactRows& row
   }
 }
 
-void SubstepJoints::relax(std::span<SubstepState> states, ContactRows& rows, float time) {
+void SubstepJoints::findUntouched(std::span<const SubstepBody> bodies) {
+  m_untouched.clear();
+  const auto isTouched = [&](int id) {
+    return id >= 0 && ((bodies[at(id)].colours | bodies[at(id)].held_colours) != 0 ||
+                       bodies[at(id)].body.turn_rate != 0);
+  };
+  for (auto& [first, system] : m_systems) system.rows.setUntouched(true);
+  for (Link& link : m_links) {
+    link.is_untouched = !link.has_work && !link.is_in_net && !isTouched(link.a) && !isTouched(link.b);
+    if (link.p_system != nullptr && !link.is_untouched) link.p_system->setUntouched(false);
+  }
+  for (Link& link : m_links) {
+    link.is_untouched = link.is_untouched && (link.p_system == nullptr || link.p_system->isUntouched());
+    for (const int id : {link.a, link.b}) {
+      if (link.is_untouched && id >= 0 && isMovable(bodies[at(id)]))
+        m_untouched.push_back(bodies[at(id)].state);
+    }
+  }
+  std::sort(m_untouched.begin(), m_untouched.end());
+  m_untouched.erase(std::unique(m_untouched.begin(), m_untouched.end()), m_untouched.end());
+}
+
+void SubstepJoints::finishStep(std::span<SubstepState> states, ContactRows& rows, float time) {
+  for (const Link& link : m_links) {
+    for (int k = 0; k < link.count; ++k) memoryOf(link.id)[at(k)] = impulseOf(link, k).size / double{m_h};
+    for (int k = 0; k < link.count && link.p_system == nullptr; ++k) m_rows[at(link.row + k)].impulse = 0;
+  }
+  for (auto& [first, system] : m_systems) {
+    if (system.rows.isUntouched()) system.rows.beginSubstep(states);
+  }
+  relax(states, rows, time, true);
+}
+
+void SubstepJoints::relax(std::span<SubstepState> states, ContactRows& rows, float time,
+                          bool only_untouched) {
   for (Link& link : m_links) {
     const SubstepState &a = states[at(link.state_a)], &b = states[at(link.state_b)];
     link.work = 0;
+    if (only_untouched && !link.is_untouched) continue;
     if (link.has_work) addWork(link, states, 1);
     const std::array<double, 3> before = link.value;
     place(link, a, b, time);
@@ -474,9 +509,12 @@ void SubstepJoints::relax(std::span<SubstepState> states, ContactRows& rows, flo
     if (link.p_system == nullptr) solve(link, states[at(link.state_a)], states[at(link.state_b)], false);
   }
   for (const Load& load : m_loads) placeLoad(load, states[at(load.state_a)], states[at(load.state_b)], time);
-  for (auto& [first, system] : m_systems) system.rows.solve(states, false);
+  for (auto& [first, system] : m_systems) {
+    if (!only_untouched || system.rows.isUntouched()) system.rows.solve(states, false);
+  }
   giveLoads(rows);
   for (Link& link : m_links) {
+    if (only_untouched && !link.is_untouched) continue;
     if (link.has_work) addWork(link, states, 1);
     const Joint& j = joint(link.id);
     for (int k = 0; k < link.count; ++k) {
@@ -549,7 +587,6 @@ void SubstepJoints::scale(std::span<const float> factors, std::span<SubstepState
 int SubstepJoints::end(double dt) {
   int broken = 0;
   for (const Link& link : m_links) {
-    for (int k = 0; k < link.count; ++k) memoryOf(link.id)[at(k)] = impulseOf(link, k).size / double{m_h};
     broken += finish(link.id, link.force / dt, link.torque / dt) ? 1 : 0;
   }
   return broken;

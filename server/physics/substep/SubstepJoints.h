@@ -39,11 +39,20 @@ class SubstepJoints : public JointStore {
   /// Returns the number of joint systems, which are solved directly.
   std::size_t systems() const { return m_systems.size(); }
   bool isEmpty() const { return m_links.empty(); }
+  /// Finds the bodies of groups that only gravity and rigid joints act on, unless they are nets. If these get
+  /// half of the first kick, and the other half before finishStep(), their velocities at the end of the step
+  /// are those at their places. Else the velocity is that of half a sub-step later, which looks like a gain
+  /// of energy when a chain swings.
+  void findUntouched(std::span<const SubstepBody> bodies);
+  /// Returns the states of these bodies.
+  std::span<const std::int32_t> untouched() const { return m_untouched; }
   void warmStart(std::span<SubstepState> states);
   /// Call when the contacts have been warm started, too.
   void solveSoftly(std::span<SubstepState> states, ContactRows& rows);
   /// Solves without softness at the present positions; `time` is since the step began.
-  void relax(std::span<SubstepState> states, ContactRows& rows, float time);
+  void relax(std::span<SubstepState> states, ContactRows& rows, float time, bool only_untouched = false);
+  /// Remembers the impulses for the next step, and solves the joints of the untouched bodies once more.
+  void finishStep(std::span<SubstepState> states, ContactRows& rows, float time);
   /// Applies restitution to loads; call after ContactRows::bounce().
   void bounce(std::span<SubstepState> states, ContactRows& rows);
   /// Call after a step of length `dt`: writes the joints' forces. Returns the number of joints that broke.
@@ -107,6 +116,7 @@ class SubstepJoints : public JointStore {
     bool is_line;                      // a rope, rod or spring between two points, with one row
     bool is_in_net;                    // solved alone, but other joints act on its bodies
     bool has_work;                     // a motor, a spring, or is_driven
+    bool is_untouched;                 // as in findUntouched()
     bool is_driven;                    // one of the bodies is immovable and moves
     Vec2 driver;                       // velocity of that body
     std::array<double, 3> value = {};  // position errors of the rows
@@ -166,6 +176,7 @@ class SubstepJoints : public JointStore {
 
   std::vector<Link> m_links;
   std::vector<Row> m_rows;
+  std::vector<std::int32_t> m_untouched;  // states
   std::vector<Load> m_loads;
   std::vector<Shape> m_shapes, m_shapes_before;  // by link, then by load
   std::vector<Slot> m_slots;                     // by shape

@@ -41,9 +41,13 @@ void SubstepWorld::findGroups() {
   forEachHold([&](const SubstepBody& a, const SubstepBody& b) { unite(a, b); });
   // Momentum has moved between the bodies of a group from which energy was taken, though they may not push
   // each other. Those that nothing pushed are not among them.
+  m_slowed.assign(m_states.size(), 0);  // by group: its first slowed state
   for (const std::int32_t id : m_active) {
     const std::int32_t state = m_bodies[at(id)].state;
-    if (m_energy.isSlowed(state)) m_sets.unite(state, m_energy.firstSlowedOf(state));
+    if (!m_energy.isSlowed(state)) continue;
+    std::int32_t& first = m_slowed[at(m_energy.groupOf(state))];
+    if (first == 0) first = state;
+    m_sets.unite(state, first);
   }
   m_groups.assign(m_states.size(), {});
   const auto lean = [&](const SubstepBody& on, const SubstepBody& member) {

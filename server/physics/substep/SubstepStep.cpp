@@ -188,13 +188,26 @@ void SubstepWorld::beginEnergy() {
   }
 }
 
-// Keeps the impulses of this sub-step from adding energy.
-void SubstepWorld::balance(double time) {
-  m_rows.visitWork([this](int state, double work) { m_energy.giveByImpulses(state, work); });
+// Keeps the impulses of this sub-step, or of SubstepJoints::finishStep(), from adding energy.
+void SubstepWorld::balance(double time, bool is_end) {
+  if (!is_end) m_rows.visitWork([this](int state, double work) { m_energy.giveByImpulses(state, work); });
   m_joints.visitWork([this](int state, double work) { m_energy.giveFromSprings(state, work); });
   if (!m_energy.balance(m_states, time, false)) return;
   m_rows.scale(m_energy.factors());
   m_joints.scale(m_energy.factors(), m_states, m_rows);
+}
+
+// Gives these states a part of the velocity that forces add in a sub-step.
+void SubstepWorld::kick(std::span<const std::int32_t> states, float part) {
+  for (const std::int32_t state : states) {
+    SubstepState& s = m_states[at(state)];
+    Lanes speeds, kick;
+    __builtin_memcpy(&speeds, &s.vx, sizeof speeds);
+    __builtin_memcpy(&kick, &m_kicks[at(state)], sizeof kick);
+    speeds += part * kick;
+    __builtin_memcpy(&s.vx, &speeds, sizeof speeds);
+    m_energy.note(state, speeds);
+  }
 }
 
 void SubstepWorld::bounce(double time) {
@@ -212,15 +225,8 @@ void SubstepWorld::stepBatch(std::span<const std::int32_t> states) {
   m_energy.beginBatch(states);
   for (int i = 0; i < m_options.substeps; ++i) {
     pushByMagnets();
-    for (const std::int32_t state : states) {
-      SubstepState& s = m_states[at(state)];
-      Lanes speeds, kick;
-      __builtin_memcpy(&speeds, &s.vx, sizeof speeds);
-      __builtin_memcpy(&kick, &m_kicks[at(state)], sizeof kick);
-      speeds += kick;
-      __builtin_memcpy(&s.vx, &speeds, sizeof speeds);
-      m_energy.note(state, speeds);
-    }
+    kick(states, 1);
+    if (i == 0) kick(m_joints.untouched(), -0.5f);
     m_joints.warmStart(m_states);
     m_rows.warmStart(m_states);
     m_joints.solveSoftly(m_states, m_rows);
@@ -231,6 +237,12 @@ void SubstepWorld::stepBatch(std::span<const std::int32_t> states) {
     m_joints.relax(m_states, m_rows, time);
     m_rows.solve(m_states, m_h, time, false);
     balance(double{time});
+  }
+  if (!m_joints.isEmpty()) {
+    m_energy.note(m_states);
+    kick(m_joints.untouched(), 0.5f);
+    m_joints.finishStep(m_states, m_rows, time);
+    balance(double{time}, true);
   }
   bounce(double{time});
 }
@@ -262,6 +274,7 @@ void SubstepWorld::stepOnce() {
   if (!m_joints.isEmpty()) giveLoads();
   m_joints.makeRows(m_bodies);
   chooseColours();
+  m_joints.findUntouched(m_bodies);
   chooseBatches();
   beginEnergy();
   m_turns.assign(m_states.size(), 0);

@@ -44,6 +44,10 @@ class SubstepSystem {
   const JointRow& along(int number) const { return m_along[at(m_places[at(number)])]; }
   void place(int number, Vec2 n, double ja, double jb);
 
+  /// Sets whether gravity acts half before and half after each step (SubstepJoints::findUntouched()).
+  void setUntouched(bool is_untouched) { m_is_untouched = is_untouched; }
+  bool isUntouched() const { return m_is_untouched; }
+
   /// True if the factor of any movable body is not 1.
   bool isScaled(std::span<const float> factors) const;
 
@@ -76,7 +80,7 @@ class SubstepSystem {
     double spin;
   };
   std::vector<Velocity> m_velocities;
-  bool m_is_factored = false, m_has_springs = false, m_was_soft = false;
+  bool m_is_factored = false, m_has_springs = false, m_was_soft = false, m_is_untouched = false;
 };
 
 }  // namespace naiad::physics

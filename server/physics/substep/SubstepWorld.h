@@ -205,7 +205,8 @@ class SubstepWorld final : public RigidStepper {
   void undoMagnetWork();
   void beginEnergy();
   void stepBatch(std::span<const std::int32_t> states);
-  void balance(double time);
+  void kick(std::span<const std::int32_t> states, float part);
+  void balance(double time, bool is_end = false);
   void bounce(double time);
   void moveStates(std::span<const std::int32_t> states);
   void keepMomentum();
@@ -300,6 +301,7 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_active;   // ids of bodies that move in this step, by order
   std::vector<std::int32_t> m_drivers;  // the kinematic ones of these
   std::vector<std::int32_t> m_changed;
+  std::vector<std::int32_t> m_slowed;
   std::vector<Free> m_free_groups;
   std::vector<std::pair<std::int32_t, std::int32_t>> m_free_members;  // id and index in m_free_groups
   std::vector<Near> m_near;

@@ -1,7 +1,7 @@
 // The file of a round, which a stranger may have made.
 //
 //   input   0 a file as it is; 1 chunks: each: type (1) | length (2) | payload | …; 2 records of a
-//           TURN chunk (1) | bytes; 3 a damaged file: bytes missing at the end (2), changed byte (2),
+//           TURN chunk (1) | bytes; 3 a damaged file: bytes cut off at the end (2), changed byte (2),
 //           its bits that are flipped (1) | chunks
 //
 // In 1 and 2 the checksums are right, because a stranger can compute them, too.
@@ -45,7 +45,7 @@ Contents readAll(DfrReader& reader, std::size_t most) {
   return all;
 }
 
-/// Requires that a file with equal contents, packed or not, reads equally.
+/// Requires that a file with the same contents, packed or not, reads equally.
 void tryAgain(const DfrReader& before, const Contents& expected, std::size_t most) {
   const bool damaged =
       before.end() == DfrEnd::kDamaged;  // then the stream ends somewhere after the bad record

@@ -174,8 +174,8 @@ TEST_F(BodyRigids, LampHangsFromASpectralNail) {
   }
 }
 
-// Two bodies that meet in the air, without a bounce, fall together from then on, whenever in the tick they
-// meet.
+// Two bodies of which one hits the other in the air without a bounce go on falling together, at whatever time
+// of the tick they meet.
 TEST(BodyRigidFalls, CentreOfMassFallsFreelyThroughAnInelasticImpact) {
   for (const double gap : {0.1, 0.7, 1.3, 1.9}) {
     for (const double mass : {1.0, 3.0}) {

@@ -53,6 +53,38 @@ TEST(SubstepJoints, HardJointsHoldASwingingCrate) {
   }
 }
 
+// The velocity of each body is that at its place, not half a sub-step later.
+TEST(SubstepJoints, SwingKeepsItsEnergy) {
+  for (const JointKind kind : {JointKind::kHinge, JointKind::kDistance}) {
+    for (const int links : {1, 3}) {
+      SubstepScene scene(awake());
+      const ConvexShape shape = boxShape(0.4, 0.2);
+      int before = scene.world.addInOrder(++scene.order, immovable({0, 0}), {});
+      std::vector<int> bodies;
+      for (int i = 0; i < links; ++i) {
+        bodies.push_back(scene.add(movable({1.0 + i, 0}, shape), shape));
+        scene.join({.length = 1}, kind, before, bodies.back(), {},
+                   kind == JointKind::kHinge ? Vec2{-1, 0} : Vec2{});
+        before = bodies.back();
+      }
+      double lowest = 0, gained = 0, fastest = 0;
+      for (int tick = 0; tick < 60; ++tick) {
+        scene.ticks(1);
+        double energy = 0, kinetic = 0;
+        for (const int id : bodies) {
+          const RigidBody& body = scene.world.body(id);
+          energy += energyOf(body);
+          kinetic += energyOf(body) + kGravityPerTick * scene.at(id).y;
+        }
+        fastest = std::max(fastest, kinetic);
+        lowest = std::min(lowest, energy);
+        gained = std::max(gained, energy - lowest);
+      }
+      EXPECT_LE(gained, 0.01 * fastest) << static_cast<int>(kind) << ' ' << links;
+    }
+  }
+}
+
 TEST(SubstepJoints, ARopeOnlyPulls) {
   Hanging scene({0, 0.5});
   const int rope = scene.join({.length = 2}, JointKind::kRope, scene.nail, scene.crate);
