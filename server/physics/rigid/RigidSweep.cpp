@@ -322,7 +322,7 @@ void RigidWorld::applyImpact(ContactConstraint& c, double time) {
       c.friction > 0 ? rub(c, rest_speed, rest_after) : bounce(c, m_states, rest_speed, rest_after);
   shift(-since);
   c.is_ballistic = c.restitution > 0 && c.may_fly && !rests;
-  // At rest on each other, they fall together, or not at all if one of them cannot fall.
+  // Bodies at rest on each other fall together. If one of them cannot fall, neither does the other.
   const double share = a.inverse_mass / (a.inverse_mass + b.inverse_mass);
   const Vec2 bend = bend_a != Vec2{} && bend_b != Vec2{} ? bend_a + share * (bend_b - bend_a) : Vec2{};
   if (rests)

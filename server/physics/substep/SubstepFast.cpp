@@ -89,6 +89,7 @@ void SubstepWorld::stopFast() {
     }
     stop(fast);
   }
+  stopJoined();
 }
 
 // Wakes the sleeping bodies in the way of fast kinematic ones.

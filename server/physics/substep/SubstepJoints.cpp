@@ -97,14 +97,15 @@ void SubstepJoints::findSystems(std::size_t bodies) {
   old.swap(m_systems);
   m_slots.assign(m_shapes.size(), {});
   m_local_of.assign(bodies, -1);
-  m_sets.reset(bodies);
+  UnionFind sets;  // also by loads, unlike m_sets
+  sets.reset(bodies);
   for (const Shape& shape : m_shapes) {
-    if (shape.moves_a && shape.moves_b) m_sets.unite(shape.a, shape.b);
+    if (shape.moves_a && shape.moves_b) sets.unite(shape.a, shape.b);
   }
   std::vector<std::pair<int, int>> by_root;  // (root, link)
   for (std::size_t i = 0; i < m_shapes.size(); ++i) {
     const Shape& shape = m_shapes[i];
-    by_root.emplace_back(m_sets.rootOf(shape.moves_b ? shape.b : shape.a), static_cast<int>(i));
+    by_root.emplace_back(sets.rootOf(shape.moves_b ? shape.b : shape.a), static_cast<int>(i));
   }
   std::sort(by_root.begin(), by_root.end());
   for (auto first = by_root.begin(); first != by_root.end();) {

@@ -289,7 +289,6 @@ Vec2 SubstepWorld::movedBy(const SubstepBody& b) const {
 void SubstepWorld::finish() {
   reportContacts();
   stopFast();
-  stopJoined();
   keepMomentum();
   for (const std::int32_t id : m_active) {
     SubstepBody& b = m_bodies[at(id)];

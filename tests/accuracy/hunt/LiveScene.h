@@ -31,7 +31,8 @@ class HuntBody : public df::Body {
 
 class LiveScene {
  public:
-  /// With `p_start`, the bodies get these states after the joints have been made at the scene's own start.
+  /// Makes bodies and joints as the scene says. Then, if `p_start` is not null, gives the bodies those
+  /// states.
   LiveScene(const SceneData& scene, const std::vector<BodyState>* p_start, bool writes);
   ~LiveScene() { m_world.shutDown(); }
   LiveScene(const LiveScene&) = delete;
