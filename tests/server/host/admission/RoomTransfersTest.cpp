@@ -60,11 +60,6 @@ class RoomTransfersTest : public testing::Test, protected test::HostRooms {
     EXPECT_TRUE(client.isWelcome());
     return client;
   }
-  static void enter(Client& client, const std::string& room) {
-    wire::ClientMessage message;
-    message.mutable_enter_room()->set_room(room);
-    client.receive(message);
-  }
   void tick() {
     now += 33ms;
     ++counters.ticks;
@@ -133,7 +128,7 @@ TEST_F(RoomTransfersTest, MoveSwitchesWorldsAndChangesThePlayerId) {
   Client& ann = join("ann", "lobby");
   tick();
   const std::uint32_t before = ann.welcome().player();
-  enter(ann, "quiet");
+  ann.enter("quiet");
   EXPECT_EQ(roomOf(ann), "lobby") << "between two ticks";
   tick();
   EXPECT_EQ(roomOf(ann), "quiet");
@@ -143,7 +138,7 @@ TEST_F(RoomTransfersTest, MoveSwitchesWorldsAndChangesThePlayerId) {
   EXPECT_EQ(count("quiet", df::InputQueue::kJoin, after), 1u);
   EXPECT_EQ(sessionOf(ann).welcomed().room(), "quiet") << "as a welcome back says it";
   EXPECT_EQ(counters.room_transfers, 1u);
-  enter(ann, "quiet");
+  ann.enter("quiet");
   tick();
   EXPECT_EQ(counters.room_transfers, 1u) << "they are there";
 }
@@ -151,17 +146,17 @@ TEST_F(RoomTransfersTest, MoveSwitchesWorldsAndChangesThePlayerId) {
 TEST_F(RoomTransfersTest, RefusedMoveKeepsTheRoomAndTellsTheReason) {
   Client& ann = join("ann", "lobby");
   join("bob", "arcade");
-  enter(ann, "arcade");
+  ann.enter("arcade");
   tick();
   EXPECT_EQ(roomOf(ann), "lobby");
   EXPECT_EQ(lastLine(ann), "The room \"arcade\" is full (1 players). Try again later.");
-  enter(ann, "quite");
+  ann.enter("quite");
   tick();
   EXPECT_EQ(lastLine(ann), "There is no room \"quite\"; did you mean \"quiet\"?");
-  enter(ann, "");
+  ann.enter("");
   tick();
   EXPECT_EQ(roomOf(ann), "lobby");
-  enter(ann, "\033[2J" + std::string(500, 'x'));
+  ann.enter("\033[2J" + std::string(500, 'x'));
   tick();
   EXPECT_EQ(lastLine(ann).find('\033'), std::string::npos);
   EXPECT_EQ(counters.room_transfers, 0u);
@@ -201,7 +196,7 @@ TEST_F(RoomTransfersTest, TheListHasAllRooms) {
 // An old client would take a room message for that of a broken server.
 TEST_F(RoomTransfersTest, OldClientStaysInItsRoomWithoutRoomMessages) {
   Client& old = join("old", "", false);
-  enter(old, "quiet");
+  old.enter("quiet");
   moves.askByGame(sessionOf(old), "quiet");
   tick();
   EXPECT_EQ(roomOf(old), "lobby");
@@ -276,12 +271,12 @@ TEST_F(RoomTransfersTest, IdleCrowdOfARoomMakesPlaceThere) {
   Client& mover = greet(helloTo("mover", "lobby"), "203.0.113.1:1");
   now += 59s;
   EXPECT_EQ(greet(helloTo("ann", "quiet"), "203.0.113.2:1").refusal(), wire::Refused::FULL);
-  enter(mover, "quiet");
+  mover.enter("quiet");
   tick();
   EXPECT_EQ(roomOf(mover), "lobby");
   now += 1s;
   EXPECT_TRUE(greet(helloTo("ann", "quiet"), "203.0.113.2:1").isWelcome());
-  enter(mover, "quiet");
+  mover.enter("quiet");
   tick();
   EXPECT_EQ(roomOf(mover), "quiet");
   EXPECT_EQ(rooms.findRoom("quiet")->countPlaying(), 8u);

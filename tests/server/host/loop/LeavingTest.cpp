@@ -28,16 +28,6 @@ namespace {
 using namespace std::chrono_literals;
 using test::Client;
 
-void send(const Client& client, const std::function<void(wire::ClientMessage&)>& fill) {
-  wire::ClientMessage message;
-  fill(message);
-  client.receive(message);
-}
-
-void ping(const Client& client) {
-  send(client, [](auto& message) { message.mutable_ping()->set_token(1); });
-}
-
 /// A host with two rooms, whose rounds are recorded, and without a network.
 class Building {
  public:
@@ -78,7 +68,7 @@ class Building {
     return names;
   }
   void kick(const Client& client, const std::string& sentence) {
-    ping(client);
+    client.ping();
     admin.kickPlayer(clients.rooms().findPlayer(client.welcome().player())->id(), sentence);
   }
 
@@ -134,8 +124,7 @@ void PrintTo(const Way& way, std::ostream* p_out) {
 }
 
 const Way kWays[] = {
-    {"quit", [](Building&, Client& eve) { send(eve, [](auto& message) { message.mutable_leave(); }); },
-     "quit"},
+    {"quit", [](Building&, Client& eve) { eve.leave(); }, "quit"},
     {"kick",
      [](Building& house, Client& eve) { house.kick(eve, "You were removed from the game: \"spam\""); },
      R"(dismissed with "You were removed from the game: \"spam\"")"},
@@ -149,14 +138,14 @@ const Way kWays[] = {
      R"(dismissed with "Disconnected: no input for 1s.")", [](HostOptions& o) { o.inactive_kick = 1; }},
     {"game_over",
      [](Building& house, Client& eve) {
-       ping(eve);
+       eve.ping();
        house.worlds["hall"]->next.leavers = {eve.welcome().player()};
        house.clients.rooms().beginTicks();
      },
      R"(dismissed with "The game is over for you.")"},
     {"invalid_message",
      [](Building&, Client& eve) {
-       ping(eve);
+       eve.ping();
        eve.callbacks.on_frame("\xff\xff");
      },
      "invalid message"},
@@ -164,39 +153,35 @@ const Way kWays[] = {
      "invalid message"},
     {"message_flood",
      [](Building&, Client& eve) {
-       for (int i = 0; i < 1100; ++i) ping(eve);
+       for (int i = 0; i < 1100; ++i) eve.ping();
      },
      "too many messages at once"},
     {"key_flood",
      [](Building&, Client& eve) {
-       for (std::uint32_t i = 1; i <= 65; ++i) {
-         ClientUpdate update;
-         update.inputs = {Input{.id = i, .action = 0, .key = 1}};
-         send(eve, [&](auto& message) { message.set_update(writeUpdate(update)); });
-       }
+       for (std::uint32_t i = 1; i <= 65; ++i) eve.key(i, 1);
      },
      "too many keys at once"},
     {"no_reconnect",
      [](Building& house, Client& eve) {
-       ping(eve);
+       eve.ping();
        eve.drop();
        house.pass(8s);
      },
      "did not reconnect in time"},
     {"disconnected",
      [](Building&, Client& eve) {
-       ping(eve);
+       eve.ping();
        eve.drop();
      },
      "connection lost", [](HostOptions& o) { o.grace = 0; }},
-    {"silent", [](Building& house, Client&) { house.pass(17s, [&] { ping(house.ends.front()); }); },
+    {"silent", [](Building& house, Client&) { house.pass(17s, [&] { house.ends.front().ping(); }); },
      "silent for too long", [](HostOptions& o) { o.grace = 0; }},
     {"slow_connection",
      [](Building& house, Client& eve) {
        eve.unsent = 100'000;
        house.pass(12s, [&] {
-         ping(eve);
-         ping(house.ends.front());
+         eve.ping();
+         house.ends.front().ping();
        });
      },
      "connection too slow"},
@@ -204,7 +189,7 @@ const Way kWays[] = {
      "too many bytes queued"},
     {"room_change",
      [](Building& house, Client& eve) {
-       send(eve, [](auto& message) { message.mutable_enter_room()->set_room("attic"); });
+       eve.enter("attic");
        house.update();
      },
      ""},

@@ -98,9 +98,7 @@ struct HostRooms {
     return client;
   }
   static void leave(const Client& client) {
-    wire::ClientMessage message;
-    message.mutable_leave();
-    client.receive(message);
+    client.leave();
     client.drop();
   }
   virtual Session::Events events() {

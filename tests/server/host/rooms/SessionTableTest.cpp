@@ -8,7 +8,6 @@
 
 #include "Clients.h"
 #include "host/rooms/SessionTable.h"
-#include "naiad.pb.h"
 
 namespace naiad {
 namespace {
@@ -141,11 +140,8 @@ TEST_P(FullServerTest, IdlePlayerOfAQuarterMakesPlace) {
     const std::string number = std::to_string(i + 1);
     play(i < crowd ? "[2001:db8:0:1::" + number + "]:1" : "198.51.100." + number + ":1");
   }
-  wire::ClientMessage line;
-  line.set_number(1);
-  line.mutable_chat()->set_text("here");
   now += std::chrono::seconds(1);
-  for (std::size_t i = 0; i < crowd; i += 2) clients[i].receive(line);
+  for (std::size_t i = 0; i < crowd; i += 2) clients[i].say("here", 1);
   now += idle - std::chrono::seconds(1);
   EXPECT_FALSE(table.makePlace(prefixOf("[2001:db8:0:1::ffff]:1"), places, now)) << "of the crowd";
   EXPECT_FALSE(table.makePlace(prefixOf("203.0.113.1:1"), places - 1, now)) << "more players than places";

@@ -8,10 +8,8 @@
 #include <vector>
 
 #include "host/session/Session.h"
-#include "naiad.pb.h"
-#include "shared/net/base/Limits.h"
 #include "shared/net/stream/ReliableFrames.h"
-#include "tests/support/MessageLine.h"
+#include "tests/server/host/rooms/Clients.h"
 
 namespace naiad {
 namespace {
@@ -31,11 +29,8 @@ struct Listener {
       unacknowledged = 0;
       under_way.emplace_back(now + delay, acknowledges ? heard.newest() : 0);
     }
-    for (; !under_way.empty() && under_way.front().first <= now; under_way.pop_front()) {
-      wire::ClientMessage ping;
-      ping.mutable_ping()->set_last_frame(under_way.front().second);
-      line.receive(ping);
-    }
+    for (; !under_way.empty() && under_way.front().first <= now; under_way.pop_front())
+      line.ping(under_way.front().second);
   }
   void accept(const wire::ServerMessage& message) {
     if (!message.has_chat() || !heard.accept(message.number())) return;
@@ -51,7 +46,7 @@ struct Listener {
     return times[which];
   }
 
-  test::MessageLine<wire::ServerMessage> line;
+  test::Client line;
   ReliableFrameReceiver heard;
   std::uint64_t lines = 0;
   std::uint64_t left_out = 0;
@@ -65,7 +60,7 @@ struct Listener {
 
 class ChatOfOthers : public testing::TestWithParam<int> {
  protected:
-  std::unique_ptr<Session> make(test::MessageLine<wire::ServerMessage>& line, bool returns = false) {
+  std::unique_ptr<Session> make(test::Client& line, bool returns = false) {
     auto made = std::make_unique<Session>(std::make_unique<test::FakeChannel>(line), counters, now);
     made->start({[this, returns](Session& s, const wire::Hello& hello) {
                    if (returns) return away->resumeOn(s, away->welcomed(), hello.last_frame());
@@ -79,11 +74,10 @@ class ChatOfOthers : public testing::TestWithParam<int> {
     made->setGrace(60s);
     return made;
   }
-  static void greet(test::MessageLine<wire::ServerMessage>& line, std::uint32_t received) {
-    wire::ClientMessage hello;
-    hello.mutable_hello()->set_magic(kHelloMagic);
-    hello.mutable_hello()->set_last_frame(received);
-    line.receive(hello);
+  static void greet(const test::Client& line, std::uint32_t received) {
+    wire::Hello hello = test::helloOf("Ann");
+    hello.set_last_frame(received);
+    line.greet(hello);
   }
   /// Sends a chat line to all listeners, as Host::sendChat() does.
   void say(const std::string& text) {
@@ -93,9 +87,9 @@ class ChatOfOthers : public testing::TestWithParam<int> {
     message.mutable_chat()->set_text(text);
     for (Session* p_session : {far.get(), away.get(), mute.get()}) p_session->sendReliable(message);
   }
-  void tick(const wire::ClientMessage& line) {
-    for (auto& chatter : lines) {
-      for (int i = 0; talking && i < 2; ++i) chatter.receive(line);  // more than a player may send
+  void tick() {
+    for (const test::Client& chatter : lines) {
+      for (int i = 0; talking && i < 2; ++i) chatter.say(chat_line);  // more than a player may send
     }
     for (Session* p_session : {far.get(), away.get(), mute.get()}) p_session->checkDeadlines(now);
     for (const auto& chatter : chatters) chatter->checkDeadlines(now);
@@ -116,28 +110,26 @@ class ChatOfOthers : public testing::TestWithParam<int> {
   Listener far_end, away_end, mute_end, back_end;
   std::unique_ptr<Session> far = make(far_end.line), away = make(away_end.line), mute = make(mute_end.line);
   std::unique_ptr<Session> returned;
-  std::deque<test::MessageLine<wire::ServerMessage>> lines;  ///< connections of the chatting players
+  std::deque<test::Client> lines;  ///< connections of the chatting players
   std::vector<std::unique_ptr<Session>> chatters;
+  std::string chat_line;  ///< said by them
   bool talking = true;
 };
 
 TEST_P(ChatOfOthers, EndsNoListenersSession) {
-  std::string wide;
-  for (std::size_t i = 0; i < kMaxChatLength; ++i) wide += "\u2588";  // three bytes each
-  wire::ClientMessage line;
-  line.mutable_chat()->set_text(wide);
+  for (std::size_t i = 0; i < kMaxChatLength; ++i) chat_line += "\u2588";  // three bytes each
   for (int i = 0; i < GetParam(); ++i) chatters.push_back(make(lines.emplace_back()));
-  while (now < start + 5s) tick(line);
+  while (now < start + 5s) tick();
   away_end.line.callbacks.on_closed(CloseReason::kError);
-  while (now < start + 55s) tick(line);
+  while (now < start + 55s) tick();
   ASSERT_EQ(gone, 0);
   ASSERT_EQ(away->state(), Session::State::kPlaying);
   returned = make(back_end.line, true);
   back_end.heard = away_end.heard;
   greet(back_end.line, away_end.heard.newest());
-  while (now < start + 60s) tick(line);
+  while (now < start + 60s) tick();
   talking = false;
-  for (int i = 0; i < 200; ++i) tick(line);
+  for (int i = 0; i < 200; ++i) tick();
 
   EXPECT_EQ(gone, 0);
   const auto most = static_cast<std::uint64_t>(GetParam() * (3 + 3 * 60));

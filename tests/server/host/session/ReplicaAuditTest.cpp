@@ -18,9 +18,6 @@ class AuditedPair : public test::LossyScene {
     if (begins) audit.restart();
   }
 
-  void play(int ticks) {
-    for (int i = 0; i < ticks && !testing::Test::HasFatalFailure(); ++i) tick();
-  }
   void resetWorld() {
     sender.reset();
     audit.restart();

@@ -8,10 +8,8 @@
 #include <vector>
 
 #include "host/session/Session.h"
-#include "naiad.pb.h"
-#include "shared/net/base/Limits.h"
+#include "tests/server/host/rooms/Clients.h"
 #include "tests/server/host/snapshot/SimulatedWorld.h"
-#include "tests/support/MessageLine.h"
 
 namespace naiad {
 namespace {
@@ -21,7 +19,7 @@ using namespace std::chrono_literals;
 /// A session that is welcomed on its first stream, and further sessions for its player.
 class SessionReturn : public testing::Test {
  protected:
-  using Wire = test::MessageLine<wire::ServerMessage>;
+  using Wire = test::Client;
 
   SessionReturn() : session(make(first)) {
     session->setGrace(60s);
@@ -53,41 +51,14 @@ class SessionReturn : public testing::Test {
       session->resumeOn(other, welcome, hello.last_frame());
     }
   }
-  static void say(Wire& line, const wire::ClientMessage& message) {
-    line.callbacks.on_frame(message.SerializeAsString());
-  }
-  static void greet(Wire& line, const std::string& token = "", bool new_process = false,
+  static void greet(const Wire& line, const std::string& token = "", bool new_process = false,
                     std::uint32_t received = 0, bool second_stream = false) {
-    wire::ClientMessage message;
-    message.mutable_hello()->set_magic(kHelloMagic);
-    message.mutable_hello()->set_second_stream(second_stream);
-    message.mutable_hello()->set_resume_token(token);
-    message.mutable_hello()->set_new_process(new_process);
-    message.mutable_hello()->set_last_frame(received);
-    say(line, message);
-  }
-  static void ping(Wire& line, std::uint32_t received) {
-    wire::ClientMessage message;
-    message.mutable_ping()->set_token(1);
-    message.mutable_ping()->set_last_frame(received);
-    say(line, message);
-  }
-  static void chatLine(Wire& line, const std::string& text, std::uint32_t number) {
-    wire::ClientMessage message;
-    message.mutable_chat()->set_text(text);
-    message.set_number(number);
-    say(line, message);
-  }
-  static void sendUpdate(Wire& line, const ClientUpdate& update) {
-    wire::ClientMessage message;
-    message.set_update(writeUpdate(update));
-    say(line, message);
-  }
-  static void key(Wire& line, std::uint32_t id, int which, df::EventKeyboardAction action) {
-    ClientUpdate update;
-    update.inputs = {
-        {.id = id, .action = static_cast<std::uint8_t>(action), .key = static_cast<std::uint8_t>(which)}};
-    sendUpdate(line, update);
+    wire::Hello hello = test::helloOf("Ann");
+    hello.set_second_stream(second_stream);
+    hello.set_resume_token(token);
+    hello.set_new_process(new_process);
+    hello.set_last_frame(received);
+    line.greet(hello);
   }
   void sendChat(const std::string& text) {
     wire::ServerMessage message;
@@ -124,7 +95,7 @@ class SessionReturn : public testing::Test {
 TEST_F(SessionReturn, UnacknowledgedMessagesAreSentAgainOnTheNextStream) {
   for (const char* text : {"a", "b", "c"}) sendChat(text);
   EXPECT_EQ(chatOf(first), (std::vector<std::string>{"a", "b", "c"}));
-  ping(first, 1);
+  first.ping(1);
   breakStream(first);
   sendChat("d");
   const auto other = make(second);
@@ -151,17 +122,17 @@ TEST_F(SessionReturn, BestEffortMessagesAreSentNowOrDropped) {
 }
 
 TEST_F(SessionReturn, DuplicateFramesAreIgnored) {
-  chatLine(first, "one", 1);
-  chatLine(first, "two", 2);
+  first.say("one", 1);
+  first.say("two", 2);
   breakStream(first);
   const auto other = make(second);
   greet(second, "token");
   EXPECT_EQ(second.sent[0].welcome().last_frame(), 2u);
-  chatLine(second, "two", 2);
-  chatLine(second, "three", 3);
+  second.say("two", 2);
+  second.say("three", 3);
   EXPECT_EQ(chat, (std::vector<std::string>{"one", "two", "three"}));
   EXPECT_EQ(counters.repeated_frames, 1u);
-  ping(second, 0);
+  second.ping(0);
   EXPECT_EQ(second.sent.back().pong().last_frame(), 3u);
 }
 
@@ -171,10 +142,10 @@ TEST_F(SessionReturn, ChatQueuedWhileDisconnectedMayArriveAtOnce) {
   session->checkDeadlines(now);
   const auto other = make(second);
   greet(second, "token");
-  for (std::uint32_t i = 1; i <= 20; ++i) chatLine(second, "line " + std::to_string(i), i);
+  for (std::uint32_t i = 1; i <= 20; ++i) second.say("line " + std::to_string(i), i);
   EXPECT_EQ(chat.size(), 20u);
   EXPECT_EQ(counters.chat_dropped, 0u);
-  for (std::uint32_t i = 21; i <= 100; ++i) chatLine(second, "line " + std::to_string(i), i);
+  for (std::uint32_t i = 21; i <= 100; ++i) second.say("line " + std::to_string(i), i);
   EXPECT_EQ(chat.size(), 30u);
   EXPECT_EQ(counters.chat_dropped, 70u);
 }
@@ -184,7 +155,7 @@ TEST_F(SessionReturn, OnlyTimeRefillsTheChatAllowance) {
   std::uint32_t number = 0;
   Wire* p_line = &first;
   for (int i = 0; i < 25; ++i, now += 200ms) {  // reconnects five times a second, for 5 s
-    for (int k = 0; k < 40; ++k) chatLine(*p_line, "line", ++number);
+    for (int k = 0; k < 40; ++k) p_line->say("line", ++number);
     breakStream(*p_line);
     others.push_back(make(lines.emplace_back()));
     p_line = &lines.back();
@@ -211,7 +182,7 @@ TEST_F(SessionReturn, UnacknowledgingClientIsToldTheDroppedChatCount) {
   greet(second, "token", false, first.sent.back().number());
   for (int i = 0; i < 100; ++i) {
     const std::uint32_t newest = second.sent.back().number();
-    if (newest != 0) ping(second, newest);
+    if (newest != 0) second.ping(newest);
     session->checkDeadlines(now);
   }
   std::vector<std::string> rest = chatOf(second);
@@ -225,8 +196,7 @@ TEST_F(SessionReturn, UnacknowledgingClientIsToldTheDroppedChatCount) {
 /// Only a little chat may wait in the stream of a slow connection, so that snapshots get through.
 TEST_F(SessionReturn, ChatNeitherClogsASlowStreamNorBlocksPictures) {
   constexpr std::size_t kPerTick = 300;  // bytes: 72 kbit/s
-  test::SimulatedWorld world({}, 7);
-  Publisher publisher;
+  test::PublishedWorld world({}, 7);
   std::size_t most = 0;
   std::uint64_t pictures = 0;
   first.on_send = [&, keep = first.on_send](std::string_view frame) {
@@ -237,11 +207,10 @@ TEST_F(SessionReturn, ChatNeitherClogsASlowStreamNorBlocksPictures) {
   for (int tick = 0; tick < 1'800; ++tick, now += 33ms) {
     for (int i = 0; i < 6; ++i) sendChat(std::string(200, 'x'));  // chat of 64 players at their limit
     first.unsent -= std::min(first.unsent, kPerTick);
-    if (tick % 30 == 0) ping(first, first.sent.back().number());
+    if (tick % 30 == 0) first.ping(first.sent.back().number());
     session->checkDeadlines(now);
     world.tick();
-    publisher.update(world.view());
-    session->sendTick(publisher, world.view().players[0]);
+    session->sendTick(world.publisher, world.player());
     if (pictures > 3) most = std::max(most, first.unsent);  // after the whole world was sent
   }
   EXPECT_EQ(session->state(), Session::State::kPlaying);
@@ -279,16 +248,16 @@ TEST_F(SessionReturn, ResumeInAnotherProcessCountsAsAReset) {
   now += 10s;
   const auto other = make(second);
   greet(second, "token", true);
-  sendUpdate(second, update);
+  second.update(update);
   EXPECT_EQ(counters.resets, 0u);
   EXPECT_EQ(counters.resets_dropped, 1u);
   now += 2s;
-  sendUpdate(second, update);
+  second.update(update);
   EXPECT_EQ(counters.resets, 1u);
   Wire& third = lines.emplace_back();
   const auto again = make(third);
   greet(third, "token");  // the same process on another stream
-  sendUpdate(third, update);
+  third.update(update);
   EXPECT_EQ(counters.resets, 1u) << "two seconds, whatever becomes of the stream";
 }
 
@@ -298,7 +267,7 @@ TEST_F(SessionReturn, AClientThatAcknowledgesMissesNothing) {
     sendChat(line);
     if (i % 8 != 0) continue;
     session->checkDeadlines(now);
-    ping(first, i);
+    first.ping(i);
   }
   EXPECT_EQ(session->state(), Session::State::kPlaying);
   EXPECT_EQ(chatOf(first).size(), 1000u);
@@ -308,12 +277,12 @@ TEST_F(SessionReturn, AClientThatAcknowledgesMissesNothing) {
 TEST_F(SessionReturn, ClientThatSendsButNeverReadsIsDisconnected) {
   first.unsent = 100'000;
   for (int i = 0; i < 99; ++i, now += 100ms) {
-    ping(first, 0);
+    first.ping(0);
     session->checkDeadlines(now);
   }
   EXPECT_EQ(session->state(), Session::State::kPlaying);
   for (int i = 0; i < 2; ++i, now += 100ms) {
-    ping(first, 0);
+    first.ping(0);
     session->checkDeadlines(now);
   }
   EXPECT_EQ(session->state(), Session::State::kEnding);
@@ -330,10 +299,10 @@ TEST_F(SessionReturn, SilentClientWithAStuckStreamMayResume) {
 }
 
 TEST_F(SessionReturn, ResumeInAnotherProcessTellsWhereToContinue) {
-  key(first, 1, df::Keyboard::A, df::KEY_PRESSED);
-  key(first, 2, df::Keyboard::A, df::KEY_RELEASED);
+  first.key(1, df::Keyboard::A, df::KEY_PRESSED);
+  first.key(2, df::Keyboard::A, df::KEY_RELEASED);
   sendChat("old");
-  chatLine(first, "mine", 5);
+  first.say("mine", 5);
   breakStream(first);
   const auto other = make(second);
   greet(second, "token", true);
@@ -346,7 +315,7 @@ TEST_F(SessionReturn, ResumeInAnotherProcessTellsWhereToContinue) {
   EXPECT_EQ(welcome.resume_state().input(), 2u);
   EXPECT_EQ(welcome.resume_state().world_epoch(), 1u);
   EXPECT_EQ(welcome.last_frame(), 0u);
-  chatLine(second, "a new process counts from 1", 1);
+  second.say("a new process counts from 1", 1);
   EXPECT_EQ(chat.size(), 2u);
   sendChat("new");
   EXPECT_EQ(chatOf(second), std::vector<std::string>{"new"});
@@ -361,9 +330,9 @@ TEST_F(SessionReturn, ReplacedProcessGetsAGoodbye) {
   EXPECT_EQ(first.sent.back().goodbye().message(), "This session was resumed in another client.");
   EXPECT_TRUE(first.closed);
   EXPECT_FALSE(first.destroyed) << "the message is on its way";
-  chatLine(first, "still here", 1);
+  first.say("still here", 1);
   EXPECT_TRUE(chat.empty());
-  chatLine(second, "here", 1);
+  second.say("here", 1);
   EXPECT_EQ(chat, std::vector<std::string>{"here"});
   first.callbacks.on_closed(CloseReason::kPeer);
   EXPECT_EQ(other->state(), Session::State::kGone);
@@ -377,10 +346,10 @@ TEST_F(SessionReturn, SessionDoesNotKeepItsResumeToken) {
 }
 
 TEST_F(SessionReturn, DisconnectReleasesHeldKeysAfterQueuedInputs) {
-  key(first, 1, df::Keyboard::B, df::KEY_PRESSED);
-  key(first, 2, df::Keyboard::A, df::KEY_DOWN);
-  key(first, 3, df::Keyboard::C, df::KEY_PRESSED);
-  key(first, 4, df::Keyboard::C, df::KEY_RELEASED);
+  first.key(1, df::Keyboard::B, df::KEY_PRESSED);
+  first.key(2, df::Keyboard::A, df::KEY_DOWN);
+  first.key(3, df::Keyboard::C, df::KEY_PRESSED);
+  first.key(4, df::Keyboard::C, df::KEY_RELEASED);
   const std::string a = std::to_string(int{df::Keyboard::A});
   const std::string b = std::to_string(int{df::Keyboard::B});
   breakStream(first);  // no datagrams either, so the client is gone
@@ -393,16 +362,16 @@ TEST_F(SessionReturn, DisconnectReleasesHeldKeysAfterQueuedInputs) {
 }
 
 TEST_F(SessionReturn, ResumeInNewProcessReleasesOldKeysFirst) {
-  key(first, 1, df::Keyboard::A, df::KEY_PRESSED);
+  first.key(1, df::Keyboard::A, df::KEY_PRESSED);
   const auto other = make(second);
   greet(second, "token", true);
-  key(second, 2, df::Keyboard::A, df::KEY_PRESSED);
+  second.key(2, df::Keyboard::A, df::KEY_PRESSED);
   const std::string a = std::to_string(int{df::Keyboard::A});
   EXPECT_EQ(taken(), (std::vector<std::string>{a + " down", a + " up", a + " down"}));
 }
 
 TEST_F(SessionReturn, ResumeOnANewStreamKeepsHeldKeys) {
-  key(first, 1, df::Keyboard::A, df::KEY_PRESSED);
+  first.key(1, df::Keyboard::A, df::KEY_PRESSED);
   const auto other = make(second);
   greet(second, "token");
   EXPECT_EQ(taken().size(), 1u);
@@ -415,8 +384,7 @@ class SessionWithTwoStreams : public SessionReturn {
   SessionWithTwoStreams() : other(make(second)) { greet(second, "token", false, 0, true); }
   void tick(bool quiet = false) {
     world.tick(quiet);
-    publisher.update(world.view());
-    session->sendTick(publisher, world.view().players[0]);
+    session->sendTick(world.publisher, world.player());
   }
   /// Sends the world, so that only later changes are pending.
   void settle() {
@@ -432,7 +400,7 @@ class SessionWithTwoStreams : public SessionReturn {
     for (std::uint32_t n = acks.newest + 1; n <= session->sender().newestNumber(); ++n) acks.addReceived(n);
     ClientUpdate update;
     update.acks = acks;
-    sendUpdate(line, update);
+    line.update(update);
   }
   static std::vector<std::string> snapshots(const Wire& line) {
     std::vector<std::string> all;
@@ -444,8 +412,7 @@ class SessionWithTwoStreams : public SessionReturn {
 
   std::unique_ptr<Session> other;
   AckWindow acks;
-  test::SimulatedWorld world{{.view_width = 100, .view_height = 40, .objects = 600}, 5};
-  Publisher publisher;
+  test::PublishedWorld world{{.view_width = 100, .view_height = 40, .objects = 600}, 5};
 };
 
 TEST_F(SessionWithTwoStreams, SecondStreamIsWelcomedWithoutANewPlayer) {
@@ -520,7 +487,7 @@ TEST_F(SessionWithTwoStreams, PendingChatDoesNotBlockTheSecondStream) {
 
 TEST_F(SessionWithTwoStreams, DeadFirstStreamDetachesTheSession) {
   for (int i = 0; i < 200; ++i, now += 100ms) {
-    key(second, 1, df::Keyboard::SPACE, df::KEY_PRESSED);
+    second.key(1, df::Keyboard::SPACE, df::KEY_PRESSED);
     session->checkDeadlines(now);
   }
   EXPECT_TRUE(session->isDetached());
@@ -528,17 +495,17 @@ TEST_F(SessionWithTwoStreams, DeadFirstStreamDetachesTheSession) {
 }
 
 TEST_F(SessionWithTwoStreams, DuplicateInputsOfBothStreamsAreTakenOnce) {
-  key(second, 1, df::Keyboard::SPACE, df::KEY_PRESSED);
-  key(first, 1, df::Keyboard::SPACE, df::KEY_PRESSED);
-  key(first, 2, df::Keyboard::SPACE, df::KEY_RELEASED);
-  key(second, 2, df::Keyboard::SPACE, df::KEY_RELEASED);
+  second.key(1, df::Keyboard::SPACE, df::KEY_PRESSED);
+  first.key(1, df::Keyboard::SPACE, df::KEY_PRESSED);
+  first.key(2, df::Keyboard::SPACE, df::KEY_RELEASED);
+  second.key(2, df::Keyboard::SPACE, df::KEY_RELEASED);
   const std::string space = std::to_string(static_cast<int>(df::Keyboard::SPACE));
   EXPECT_EQ(taken(), (std::vector<std::string>{space + " down", space + " up"}));
   EXPECT_EQ(counters.repeated_inputs, 2u);
 }
 
 TEST_F(SessionWithTwoStreams, ChatOnTheSecondStreamEndsTheSession) {
-  chatLine(second, "hello", 1);
+  second.say("hello", 1);
   EXPECT_TRUE(chat.empty());
   EXPECT_EQ(counters.malformed_messages, 1u);
   EXPECT_EQ(session->state(), Session::State::kEnding);

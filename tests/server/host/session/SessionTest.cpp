@@ -6,16 +6,11 @@
 #include <vector>
 
 #include "host/session/Session.h"
-#include "host/session/StreamPair.h"
-#include "naiad.pb.h"
-#include "shared/net/base/Limits.h"
 #include "shared/replica/Limits.h"
-#include "shared/replica/Replica.h"
-#include "shared/replica/UpdateCodec.h"
-#include "shared/values/Canvas.h"
 #include "shared/values/Keyboard.h"
+#include "tests/server/host/rooms/Clients.h"
+#include "tests/server/host/snapshot/DirectSender.h"
 #include "tests/server/host/snapshot/SimulatedWorld.h"
-#include "tests/support/MessageLine.h"
 
 namespace naiad {
 namespace {
@@ -23,7 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 
 using test::FakeChannel;
-using Wire = test::MessageLine<wire::ServerMessage>;
+using Wire = test::Client;
 
 class SessionTest : public testing::Test {
  protected:
@@ -42,7 +37,6 @@ class SessionTest : public testing::Test {
                    [this](Session&) { ++gone; }, [this] { return now; }});
   }
 
-  void hear(const wire::ClientMessage& message) { hearBytes(message.SerializeAsString()); }
   void hearBytes(const std::string& bytes) { line.callbacks.on_frame(bytes); }
   /// Calls checkDeadlines() until `after` has passed since `now`. Begins where the last call ended.
   void listenUntil(Session& listener, Session::Clock::duration after) {
@@ -53,21 +47,18 @@ class SessionTest : public testing::Test {
   static wire::ClientMessage hello(std::uint32_t protocol = kProtocolVersion,
                                    std::uint32_t magic = kHelloMagic) {
     wire::ClientMessage message;
+    *message.mutable_hello() = test::helloOf("Ann");
     message.mutable_hello()->set_magic(magic);
     message.mutable_hello()->set_protocol(protocol);
-    message.mutable_hello()->set_player_name("Ann");
     return message;
   }
-  void greet() { hear(hello()); }
-  static wire::ClientMessage updateOf(const ClientUpdate& update) {
-    wire::ClientMessage message;
-    message.set_update(writeUpdate(update));
-    return message;
-  }
+  void greet() { line.receive(hello()); }
   static wire::ClientMessage inputs(std::vector<Input> inputs) {
     ClientUpdate update;
     update.inputs = std::move(inputs);
-    return updateOf(update);
+    wire::ClientMessage message;
+    message.set_update(writeUpdate(update));
+    return message;
   }
   static Input keyInput(std::uint32_t id, int which = 0, int action = 0) {
     return {.id = id, .action = static_cast<std::uint8_t>(action), .key = static_cast<std::uint8_t>(which)};
@@ -82,11 +73,6 @@ class SessionTest : public testing::Test {
   }
   static wire::ClientMessage key(std::uint32_t id, int which = 0, int action = 0) {
     return inputs({keyInput(id, which, action)});
-  }
-  static wire::ClientMessage says(const std::string& text) {
-    wire::ClientMessage message;
-    message.mutable_chat()->set_text(text);
-    return message;
   }
   std::vector<std::uint32_t> drainInputs(std::uint32_t tick = 1) {
     std::vector<std::uint32_t> ids;
@@ -119,7 +105,7 @@ TEST_F(SessionTest, IsWelcomedAfterItsHello) {
 }
 
 TEST_F(SessionTest, RefusalHasAMessageAndEndsTheSession) {
-  hear(hello(kProtocolVersion + 1));
+  line.receive(hello(kProtocolVersion + 1));
   EXPECT_TRUE(ended());
   ASSERT_EQ(line.sent.size(), 1u);
   EXPECT_EQ(lastSent().refused().reason(), wire::Refused::VERSION);
@@ -128,21 +114,23 @@ TEST_F(SessionTest, RefusalHasAMessageAndEndsTheSession) {
 }
 
 TEST_F(SessionTest, EndsIfTheFirstMessageIsNotAHello) {
-  hear(key(1));
+  line.key(1);
   EXPECT_TRUE(ended());
   EXPECT_TRUE(line.sent.empty());
   EXPECT_EQ(counters.malformed_messages, 1u);
 }
 
 TEST_F(SessionTest, EndsIfTheMagicIsWrong) {
-  hear(hello(kProtocolVersion, 1));
+  line.receive(hello(kProtocolVersion, 1));
   EXPECT_TRUE(ended());
   EXPECT_EQ(counters.malformed_messages, 1u);
 }
 
 TEST_F(SessionTest, MalformedTextLeavesNothingInTheHostsLog) {
   greet();
-  std::string bytes = says("hello").SerializeAsString();
+  wire::ClientMessage chat_line;
+  chat_line.mutable_chat()->set_text("hello");
+  std::string bytes = chat_line.SerializeAsString();
   bytes.back() = '\xff';
   testing::internal::CaptureStderr();
   hearBytes(bytes);
@@ -164,7 +152,7 @@ TEST_F(SessionTest, CountsABadFrameAndIsGone) {
 
 TEST_F(SessionTest, InputsComeInOrderAtMost16ATick) {
   greet();
-  for (std::uint32_t id = 1; id <= 20; ++id) hear(key(id));
+  for (std::uint32_t id = 1; id <= 20; ++id) line.key(id);
   std::vector<std::uint32_t> first16(16);
   std::iota(first16.begin(), first16.end(), 1u);
   EXPECT_EQ(drainInputs(), first16);
@@ -174,11 +162,11 @@ TEST_F(SessionTest, InputsComeInOrderAtMost16ATick) {
 
 TEST_F(SessionTest, ARepeatedOrLateInputIsIgnoredAndCounted) {
   greet();
-  for (const std::uint32_t id : {1u, 2u, 2u, 5u, 3u}) hear(key(id));
+  for (const std::uint32_t id : {1u, 2u, 2u, 5u, 3u}) line.key(id);
   EXPECT_EQ(drainInputs(), (std::vector<std::uint32_t>{1, 2, 5}));
-  hear(key(5));
+  line.key(5);
   EXPECT_TRUE(drainInputs().empty());
-  hear(inputs({keyInput(4), keyInput(5), keyInput(6)}));
+  line.receive(inputs({keyInput(4), keyInput(5), keyInput(6)}));
   EXPECT_EQ(drainInputs(), std::vector<std::uint32_t>{6});
   EXPECT_EQ(counters.repeated_inputs, 5u);
   EXPECT_EQ(session.state(), Session::State::kPlaying);
@@ -186,9 +174,9 @@ TEST_F(SessionTest, ARepeatedOrLateInputIsIgnoredAndCounted) {
 
 TEST_F(SessionTest, EndsAtMoreInputsThanTheQueueHolds) {
   greet();
-  for (std::uint32_t id = 1; id <= ReceivedInputs::kMaxQueued; ++id) hear(key(id));
+  for (std::uint32_t id = 1; id <= ReceivedInputs::kMaxQueued; ++id) line.key(id);
   EXPECT_EQ(session.state(), Session::State::kPlaying);
-  hear(key(ReceivedInputs::kMaxQueued + 1));
+  line.key(ReceivedInputs::kMaxQueued + 1);
   EXPECT_TRUE(ended());
   EXPECT_EQ(lastSent().goodbye().message(), "Disconnected: too many keys at once.");
   EXPECT_EQ(counters.input_floods, 1u);
@@ -196,14 +184,15 @@ TEST_F(SessionTest, EndsAtMoreInputsThanTheQueueHolds) {
 
 TEST_F(SessionTest, InputsOfEveryKindAreTaken) {
   greet();
-  hear(inputs({keyInput(1, df::Keyboard::kKeyCount - 1, df::KEY_DOWN),
-               mouseInput(2, df::MOVED, df::Mouse::MIDDLE + 1, kMaxViewWidth - 1, kMaxViewHeight - 1)}));
+  line.receive(
+      inputs({keyInput(1, df::Keyboard::kKeyCount - 1, df::KEY_DOWN),
+              mouseInput(2, df::MOVED, df::Mouse::MIDDLE + 1, kMaxViewWidth - 1, kMaxViewHeight - 1)}));
   EXPECT_EQ(drainInputs().size(), 2u);
 }
 
 TEST_F(SessionTest, PartlyInvalidUpdateIsRejectedEntirely) {
   greet();
-  hear(inputs({keyInput(1), keyInput(2, 127)}));
+  line.receive(inputs({keyInput(1), keyInput(2, 127)}));
   EXPECT_TRUE(ended());
   EXPECT_TRUE(drainInputs().empty());
 }
@@ -239,7 +228,7 @@ TEST_P(BadInput, EndsTheSession) {
   hearBytes(GetParam() < 0 ? "\xff\xff\xff" : bad[GetParam()].SerializeAsString());
   EXPECT_TRUE(ended());
   EXPECT_EQ(counters.malformed_messages, 1u);
-  hear(says("still there?"));
+  line.say("still there?");
   EXPECT_TRUE(chat.empty()) << "nothing is heard any more";
   EXPECT_TRUE(drainInputs().empty());
 }
@@ -248,16 +237,16 @@ INSTANTIATE_TEST_SUITE_P(Session, BadInput, testing::Range(-1, 13));
 
 TEST_F(SessionTest, ChatIsSanitizedAndLimitedToThreeASecond) {
   greet();
-  for (int i = 0; i < 5; ++i) hear(says("  line\x1b " + std::to_string(i)));
+  for (int i = 0; i < 5; ++i) line.say("  line\x1b " + std::to_string(i));
   EXPECT_EQ(chat, (std::vector<std::string>{"line 0", "line 1", "line 2"}));
   EXPECT_EQ(counters.chat_dropped, 2u);
   now += 330ms;
-  hear(says("too early"));
+  line.say("too early");
   EXPECT_EQ(chat.size(), 3u);
   now += 10ms;
-  hear(says("again"));
+  line.say("again");
   EXPECT_EQ(chat.back(), "again");
-  for (int i = 0; i < 1'000; ++i, now += 10ms) hear(says("for ten seconds"));
+  for (int i = 0; i < 1'000; ++i, now += 10ms) line.say("for ten seconds");
   EXPECT_NEAR(static_cast<double>(chat.size()), 4 + 30, 1);
 }
 
@@ -265,14 +254,14 @@ TEST_F(SessionTest, WorldResetsAreLimitedToOncePerTwoSeconds) {
   greet();
   ClientUpdate update;
   update.needs_reset = true;
-  for (int i = 0; i < 100; ++i) hear(updateOf(update));
+  for (int i = 0; i < 100; ++i) line.update(update);
   EXPECT_EQ(counters.resets, 1u);
   EXPECT_EQ(counters.resets_dropped, 99u);
   now += 2s - 1ms;
-  hear(updateOf(update));
+  line.update(update);
   EXPECT_EQ(counters.resets, 1u);
   now += 1ms;
-  hear(updateOf(update));
+  line.update(update);
   EXPECT_EQ(counters.resets, 2u);
   EXPECT_EQ(session.state(), Session::State::kPlaying);
 }
@@ -281,11 +270,11 @@ TEST_F(SessionTest, ExcessChecksumsAreDroppedAndCounted) {
   greet();
   ClientUpdate update;
   update.checksum = 1;
-  for (int i = 0; i < 100; ++i) hear(updateOf(update));
+  for (int i = 0; i < 100; ++i) line.update(update);
   EXPECT_EQ(counters.checksums_dropped, 99u);
   for (int second = 0; second < 5; ++second) {  // the rate of an honest client
     now += Session::Clock::duration(1s);
-    hear(updateOf(update));
+    line.update(update);
   }
   EXPECT_EQ(counters.checksums_dropped, 99u);
   EXPECT_EQ(session.state(), Session::State::kPlaying);
@@ -294,7 +283,7 @@ TEST_F(SessionTest, ExcessChecksumsAreDroppedAndCounted) {
 TEST_F(SessionTest, MaximumHonestMessageRateIsAccepted) {
   greet();
   for (int tick = 0; tick < 3'000; ++tick, now += 33ms) {
-    for (int i = 0; i < ClientActivity::kMessagesPerTick; ++i) hear(updateOf({}));
+    for (int i = 0; i < ClientActivity::kMessagesPerTick; ++i) line.update({});
     session.checkDeadlines(now);
   }
   EXPECT_EQ(session.state(), Session::State::kPlaying);
@@ -304,7 +293,7 @@ TEST_F(SessionTest, SustainedMessageFloodEndsTheSession) {
   greet();
   int ticks = 0;
   for (; ticks < 100 && session.state() == Session::State::kPlaying; ++ticks, now += 33ms) {
-    for (int i = 0; i < 2 * ClientActivity::kMessagesPerTick; ++i) hear(updateOf({}));
+    for (int i = 0; i < 2 * ClientActivity::kMessagesPerTick; ++i) line.update({});
     session.checkDeadlines(now);
   }
   EXPECT_TRUE(ended());
@@ -315,8 +304,8 @@ TEST_F(SessionTest, SustainedMessageFloodEndsTheSession) {
 
 TEST_F(SessionTest, BlankChatLinesDoNotCountTowardTheLimit) {
   greet();
-  for (int i = 0; i < 5; ++i) hear(says(" \t "));
-  hear(says("word"));
+  for (int i = 0; i < 5; ++i) line.say(" \t ");
+  line.say("word");
   EXPECT_EQ(chat, std::vector<std::string>{"word"});
 }
 
@@ -325,11 +314,11 @@ TEST_F(SessionTest, AnswersPingsAndNotesTheRoundTrip) {
   wire::ClientMessage ping;
   ping.mutable_ping()->set_token(0x123456789abcdef0);
   ping.mutable_ping()->set_rtt_millis(42);
-  hear(ping);
+  line.receive(ping);
   EXPECT_EQ(lastSent().pong().token(), 0x123456789abcdef0u);
   EXPECT_EQ(session.rttMillis(), 42u);
   ping.mutable_ping()->set_rtt_millis(0xFFFFFFFF);
-  hear(ping);
+  line.receive(ping);
   EXPECT_EQ(session.rttMillis(), 99'999u);
 }
 
@@ -337,7 +326,7 @@ TEST_F(SessionTest, LeaveIsAnsweredAndEndsTheSession) {
   greet();
   wire::ClientMessage leave;
   leave.mutable_leave();
-  hear(leave);
+  line.receive(leave);
   EXPECT_TRUE(ended());
   EXPECT_EQ(lastSent().goodbye().message(), "You left the game.");
   EXPECT_EQ(gone, 1) << "at once";
@@ -347,18 +336,16 @@ TEST_F(SessionTest, LeaveIsAnsweredAndEndsTheSession) {
 
 TEST_F(SessionTest, TerminalResizesAreAppliedFourTimesASecond) {
   greet();
-  test::SimulatedWorld world({}, 7);
-  Publisher publisher;
+  test::PublishedWorld world({}, 7);
   int taken_over = 0;
   for (int i = 0; i < 100; ++i, now += 10ms) {  // the window is resized for a second
     const std::uint64_t deferred = counters.resizes_deferred;
     wire::ClientMessage resize;
     resize.mutable_resize()->set_columns(20 + i);
-    hear(resize);
+    line.receive(resize);
     taken_over += counters.resizes_deferred == deferred ? 1 : 0;
     world.tick();
-    publisher.update(world.view());
-    session.sendTick(publisher, world.view().players[0]);
+    session.sendTick(world.publisher, world.player());
   }
   EXPECT_NEAR(taken_over, 4, 1);
 }
@@ -405,7 +392,7 @@ TEST_F(SessionTest, EndsAfterFifteenSecondsOfSilence) {
   listenUntil(session, 0s);  // restarts the clock: the hello came before
   listenUntil(session, 15s);
   EXPECT_EQ(session.state(), Session::State::kPlaying);
-  hear(says("still here"));
+  line.say("still here");
   listenUntil(session, 30s);
   EXPECT_EQ(session.state(), Session::State::kPlaying);
   listenUntil(session, 30s + 1ms);
@@ -435,28 +422,22 @@ TEST_F(SessionTest, FifteenSilentSecondsDetachAResumableSession) {
 
 TEST_F(SessionTest, SkipsTicksWhileBytesAreUnsentThenCatchesUp) {
   greet();
-  test::SimulatedWorld world({}, 5);
-  Publisher publisher;
-  Replica replica;
-  AckWindow acks;
+  test::PublishedWorld world({}, 5);
+  test::SnapshotReader reader;
   std::size_t read = line.sent.size();
-  const auto tick = [&] {
-    world.tick();
-    publisher.update(world.view());
-    session.sendTick(publisher, world.view().players[0]);
+  const auto tick = [&](bool quiet = false) {
+    world.tick(quiet);
+    session.sendTick(world.publisher, world.player());
   };
   const auto receive = [&] {
     for (; read < line.sent.size(); ++read) {
       const wire::ServerMessage& message = line.sent[read];
       ASSERT_EQ(message.payload_case(), wire::ServerMessage::kSnapshot);
-      Snapshot snapshot;
-      ASSERT_EQ(replica.read(message.snapshot(), snapshot), ReadResult::kOk);
-      replica.apply(snapshot);
-      acks.addReceived(snapshot.header.number);
+      reader.read(message.snapshot());
     }
     ClientUpdate update;
-    update.acks = acks;
-    hear(updateOf(update));
+    update.acks = reader.acks;
+    line.update(update);
   };
 
   for (int round = 0; round < 20; ++round) {
@@ -469,12 +450,10 @@ TEST_F(SessionTest, SkipsTicksWhileBytesAreUnsentThenCatchesUp) {
       tick();
       receive();
     }
-    world.tick(true);
-    publisher.update(world.view());
-    session.sendTick(publisher, world.view().players[0]);
+    tick(true);
     receive();
     const df::Canvas wanted = world.picture(0);
-    const df::Canvas seen = replica.render(world.tickNumber());
+    const df::Canvas seen = reader.replica.render(world.tickNumber());
     ASSERT_EQ(countDifferences(wanted, seen), 0) << "round " << round << "\n" << test::explain(wanted, seen);
   }
   EXPECT_EQ(counters.skipped_ticks, 20u * 25u);
@@ -483,15 +462,13 @@ TEST_F(SessionTest, SkipsTicksWhileBytesAreUnsentThenCatchesUp) {
 
 TEST_F(SessionTest, SnapshotsNameTheNewestInputThatReachedTheGame) {
   greet();
-  test::SimulatedWorld world({}, 6);
-  Publisher publisher;
-  hear(key(1));
-  hear(key(4));
+  test::PublishedWorld world({}, 6);
+  line.key(1);
+  line.key(4);
   drainInputs(world.tickNumber() + 1);
-  hear(key(5));
+  line.key(5);
   world.tick();
-  publisher.update(world.view());
-  session.sendTick(publisher, world.view().players[0]);
+  session.sendTick(world.publisher, world.player());
   Snapshot snapshot;
   ASSERT_EQ(Replica(world.tickNumber()).read(lastSent().snapshot(), snapshot), ReadResult::kOk);
   EXPECT_TRUE(snapshot.header.has_input);

@@ -101,33 +101,27 @@ struct SmallClient {
 
   void play(std::uint64_t seed, int ticks) {
     // Drawing outside objects would be one look for the whole view.
-    test::SimulatedWorld world(
+    test::PublishedWorld world(
         {.width = 120, .height = 60, .view_width = 80, .view_height = 40, .objects = 120, .scribble = 0},
         seed);
-    Publisher publisher;
-    Replica replica;
-    AckWindow acks;
+    test::SnapshotReader reader;
     std::map<std::uint32_t, df::Canvas> truth;
     std::deque<std::vector<SnapshotSender::Packet>> on_their_way;
     sender.setTerminal(static_cast<std::uint32_t>(columns), static_cast<std::uint32_t>(rows));
     for (int i = 0; i < ticks; ++i) {
       world.tick();
-      publisher.update(world.view());
-      sender.applyTick(publisher, world.view().players[0]);
-      truth.emplace(publisher.tick(), world.picture(0));
-      on_their_way.push_back(sender.build(publisher));
+      sender.applyTick(world.publisher, world.player());
+      truth.emplace(world.tickNumber(), world.picture(0));
+      on_their_way.push_back(sender.build(world.publisher));
       most_known = std::max(most_known, sender.knownCount());
       if (on_their_way.size() <= 3) continue;
       for (const SnapshotSender::Packet& packet : on_their_way.front()) {
         bytes += packet.bytes.size();
-        Snapshot snapshot;
-        ASSERT_EQ(replica.read(packet.bytes, snapshot), ReadResult::kOk);
-        replica.apply(snapshot);
-        acks.addReceived(packet.number);
+        reader.read(packet.bytes);
       }
       on_their_way.pop_front();
-      sender.acknowledge(acks);
-      compare(replica, publisher.tick() - 3, truth);
+      sender.acknowledge(reader.acks);
+      compare(reader.replica, world.tickNumber() - 3, truth);
     }
   }
   void compare(const Replica& replica, std::uint32_t tick, std::map<std::uint32_t, df::Canvas>& truth) {

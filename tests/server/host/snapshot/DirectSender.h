@@ -1,9 +1,10 @@
-// A SnapshotSender with a hand-made world and a client that gets every packet.
+// A client that reads snapshots, and a SnapshotSender with a hand-made world whose client gets every packet.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <map>
+#include <string_view>
 #include <vector>
 
 #include "host/snapshot/SnapshotSender.h"
@@ -11,6 +12,20 @@
 #include "tests/support/CellsAt.h"
 
 namespace naiad::test {
+
+/// A client's replica, and its acknowledgement of what it has read.
+struct SnapshotReader {
+  /// Applies a snapshot, which must be well-formed.
+  void read(std::string_view bytes) {
+    ASSERT_EQ(replica.read(bytes, newest), ReadResult::kOk);
+    replica.apply(newest);
+    acks.addReceived(newest.header.number);
+  }
+
+  Replica replica;
+  AckWindow acks;
+  Snapshot newest;  ///< the last snapshot read
+};
 
 /// Connects a sender and a replica without a network; the test sends acknowledgements itself.
 class DirectSender {
@@ -49,7 +64,7 @@ class DirectSender {
     sender.acknowledge({newest, mask});
   }
 
-  const Replica& reader() const { return m_reader; }
+  const Replica& reader() const { return m_reader.replica; }
 
   Publisher publisher;
   SnapshotSender sender;
@@ -57,16 +72,14 @@ class DirectSender {
 
  private:
   void read(const SnapshotSender::Packet& packet) {
-    Snapshot snapshot;
-    ASSERT_EQ(m_reader.read(packet.bytes, snapshot), ReadResult::kOk);
-    m_reader.apply(snapshot);
-    EXPECT_EQ(snapshot.header.number, packet.number);
-    EXPECT_EQ(snapshot.header.tick, packet.tick);
-    m_records[packet.number] = snapshot.records;
+    m_reader.read(packet.bytes);
+    EXPECT_EQ(m_reader.newest.header.number, packet.number);
+    EXPECT_EQ(m_reader.newest.header.tick, packet.tick);
+    m_records[packet.number] = m_reader.newest.records;
   }
 
   df::WorldView m_view;
-  Replica m_reader;
+  SnapshotReader m_reader;
   std::map<std::uint32_t, Records> m_records;  ///< index: snapshot number
 };
 

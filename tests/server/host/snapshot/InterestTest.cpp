@@ -45,8 +45,7 @@ class Window {
 // with kHysteresis, for more than kSearchInterval ticks is not known.
 void expectPlain(const test::WorldConfig& config, std::uint64_t seed, bool stands, std::size_t& compared) {
   SplitMix64 rng(seed);
-  test::SimulatedWorld world(config, seed);
-  Publisher publisher;
+  test::PublishedWorld world(config, seed);
   Interest interest;
   KnownObjects known;
   Window window(rng);
@@ -54,12 +53,11 @@ void expectPlain(const test::WorldConfig& config, std::uint64_t seed, bool stand
   std::map<std::uint64_t, std::uint32_t> near;  // slot and generation -> last tick in which it was accepted
   for (int i = 0; i < 300; ++i) {
     world.tick(i % 100 > 60);
-    publisher.update(world.view());
     if (!stands) rect = window.next();
-    const std::uint32_t tick = publisher.tick();
-    const df::ObjectKey own = world.view().players[0].followed;
-    interest.update(publisher, {rect, {own, {}}, 4, static_cast<std::uint32_t>(seed)}, known);
-    publisher.forEach([&](std::uint32_t slot, const Publisher::Model& model) {
+    const std::uint32_t tick = world.tickNumber();
+    const df::ObjectKey own = world.player().followed;
+    interest.update(world.publisher, {rect, {own, {}}, 4, static_cast<std::uint32_t>(seed)}, known);
+    world.publisher.forEach([&](std::uint32_t slot, const Publisher::Model& model) {
       const std::uint32_t id = known.find(slot);
       const bool is_known = id != KnownObjects::kNone && known.at(id).generation == model.generation;
       const bool is_own = own == df::ObjectKey{slot, model.generation};
@@ -74,7 +72,7 @@ void expectPlain(const test::WorldConfig& config, std::uint64_t seed, bool stand
       }
     });
     known.forEachAlive([&](std::uint32_t, const KnownObjects::Known& one) {
-      const Publisher::Model* model = publisher.find(one.slot);
+      const Publisher::Model* model = world.publisher.find(one.slot);
       ASSERT_TRUE(model != nullptr && model->generation == one.generation) << "tick " << tick;
     });
     if (testing::Test::HasFatalFailure()) return;
@@ -82,29 +80,18 @@ void expectPlain(const test::WorldConfig& config, std::uint64_t seed, bool stand
 }
 
 TEST(Interest, EqualsThePlainRuleInEveryTick) {
-  std::size_t compared = 0;
-  for (std::uint64_t seed = 0; seed < 120 / test::kShare; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    test::WorldConfig config;
-    config.objects = 20 + 5 * (seed % 30);
-    config.turn = config.vanish = config.block = 0.02 * static_cast<double>(seed % 4);
-    expectPlain(config, seed, seed % 3 == 0, compared);
-    if (testing::Test::HasFatalFailure()) return;
+  for (const bool turns : {true, false}) {
+    std::size_t compared = 0;
+    for (std::uint64_t seed = 0; seed < (turns ? 120u : 40u) / test::kShare; ++seed) {
+      SCOPED_TRACE((turns ? "seed " : "nothing ever turns, seed ") + std::to_string(seed));
+      test::WorldConfig config{.objects = turns ? 20 + 5 * (seed % 30) : 150};
+      config.turn = config.vanish = config.block = turns ? 0.02 * static_cast<double>(seed % 4) : 0;
+      if (!turns) config.restyle = config.reshape = config.hide = 0;
+      expectPlain(config, seed, seed % (turns ? 3 : 2) == 0, compared);
+      if (testing::Test::HasFatalFailure()) return;
+    }
+    EXPECT_GT(compared, turns ? 100'000u / test::kShare : 10'000u);
   }
-  EXPECT_GT(compared, 100'000u / test::kShare);
-}
-
-TEST(Interest, EqualsThePlainRuleWhereNothingEverTurns) {
-  std::size_t compared = 0;
-  for (std::uint64_t seed = 0; seed < 40 / test::kShare; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    test::WorldConfig config;
-    config.objects = 150;
-    config.turn = config.block = config.restyle = config.reshape = config.vanish = config.hide = 0;
-    expectPlain(config, seed, seed % 2 == 0, compared);
-    if (testing::Test::HasFatalFailure()) return;
-  }
-  EXPECT_GT(compared, 10'000u);
 }
 
 std::multiset<std::uint32_t> slotsNear(const InterestGrid& grid, const CellRect& rect) {

@@ -4,10 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "DirectSender.h"
 #include "SimulatedWorld.h"
 #include "host/snapshot/LagCompensator.h"
-#include "host/snapshot/SnapshotSender.h"
-#include "shared/replica/Replica.h"
 
 namespace naiad {
 namespace {
@@ -17,17 +16,15 @@ class LagCompensatorTest : public testing::Test {
  protected:
   void tick() {
     world.tick();
-    publisher.update(world.view());
-    compensator.recordTick(publisher, world.view());
+    compensator.recordTick(world.publisher, world.view());
     auto& models = published[world.tickNumber()];
-    publisher.forEach([&](std::uint32_t slot, const Publisher::Model& model) { models[slot] = model; });
+    world.publisher.forEach([&](std::uint32_t slot, const Publisher::Model& model) { models[slot] = model; });
   }
   df::ViewedTick seen(std::uint32_t base_age, std::uint32_t drawn_age) const {
     return {true, world.tickNumber() - base_age, world.tickNumber() - drawn_age};
   }
 
-  test::SimulatedWorld world{{}, 5};
-  Publisher publisher;
+  test::PublishedWorld world{{}, 5};
   LagCompensator compensator;
   std::map<std::uint32_t, std::map<std::uint32_t, Publisher::Model>> published;  // keyed by tick and slot
 };
@@ -67,7 +64,7 @@ TEST_F(LagCompensatorTest, ReturnsThePositionTheClientDrew) {
 TEST_F(LagCompensatorTest, OldAndFutureTicksAreClamped) {
   for (int i = 0; i < 200; ++i) tick();
   int objects = 0;
-  publisher.forEach([&](std::uint32_t slot, const Publisher::Model& model) {
+  world.publisher.forEach([&](std::uint32_t slot, const Publisher::Model& model) {
     if (slot == kFreeDrawSlot) return;
     const df::ObjectKey key{slot, model.generation};
     const auto same = [&](const df::ViewedTick& a, const df::ViewedTick& b) {
@@ -90,7 +87,7 @@ TEST_F(LagCompensatorTest, UnknownTickOrObjectHasNoPosition) {
   int gone = 0;
   for (const auto& [slot, model] : before) {
     if (slot == kFreeDrawSlot) continue;
-    const Publisher::Model* p_now = publisher.find(slot);
+    const Publisher::Model* p_now = world.publisher.find(slot);
     if (p_now != nullptr && p_now->generation == model.generation) {
       EXPECT_FALSE(compensator.positionOf({slot, model.generation}, {}));
       continue;
@@ -105,9 +102,8 @@ TEST_F(LagCompensatorTest, UnknownTickOrObjectHasNoPosition) {
 TEST_F(LagCompensatorTest, AGapBetweenTicksClearsTheHistory) {
   for (int i = 0; i < 50; ++i) tick();
   world.tick();
-  publisher.update(world.view());
   tick();
-  publisher.forEach([&](std::uint32_t slot, const Publisher::Model& model) {
+  world.publisher.forEach([&](std::uint32_t slot, const Publisher::Model& model) {
     if (slot == kFreeDrawSlot) return;
     EXPECT_EQ(compensator.positionOf({slot, model.generation}, seen(0, 0)),
               positionAt(model.state.motion, world.tickNumber()));
@@ -127,27 +123,21 @@ class LagCompensatorViews : public testing::Test {
 
   void tick() {
     world.tick();
-    publisher.update(world.view());
-    compensator.recordTick(publisher, world.view());
+    compensator.recordTick(world.publisher, world.view());
     for (std::size_t i = 0; i < kPlayers; ++i) {
-      senders[i].applyTick(publisher, player(i));
-      for (const auto& packet : senders[i].build(publisher, {64, kMaxSnapshot, false})) {
-        Snapshot snapshot;
-        ASSERT_EQ(replicas[i].read(packet.bytes, snapshot), ReadResult::kOk);
-        replicas[i].apply(snapshot);
-      }
-      senders[i].acknowledge({senders[i].newestNumber(), ~std::uint64_t{0}});
-      known[world.tickNumber()].push_back(replicas[i]);
+      senders[i].applyTick(world.publisher, world.player(i));
+      for (const auto& packet : senders[i].build(world.publisher, {64, kMaxSnapshot, false}))
+        readers[i].read(packet.bytes);
+      senders[i].acknowledge(readers[i].acks);
+      known[world.tickNumber()].push_back(readers[i].replica);
     }
     known.erase(world.tickNumber() - LagCompensator::kTicks - 1);
   }
-  const df::PlayerFacts& player(std::size_t i) const { return world.view().players[i]; }
 
-  test::SimulatedWorld world{{.width = 200, .height = 80, .players = kPlayers, .refollow = 0.02}, 7};
-  Publisher publisher;
+  test::PublishedWorld world{{.width = 200, .height = 80, .players = kPlayers, .refollow = 0.02}, 7};
   LagCompensator compensator;
   std::vector<SnapshotSender> senders{kPlayers, SnapshotSender(Resend::kOnGap)};
-  std::vector<Replica> replicas{kPlayers};
+  std::vector<test::SnapshotReader> readers{kPlayers};
   std::map<std::uint32_t, std::vector<Replica>> known;  ///< tick -> each player's replica
 };
 
@@ -166,12 +156,12 @@ TEST_F(LagCompensatorViews, MatchTheViewsThatClientsDrew) {
       const ObjectState* p_followed = replica.followed();
       // The client does not know the object's earlier path, which matters only if the path was not straight.
       if (p_followed != nullptr && !(p_followed->motion.acceleration == df::FixedVector{})) continue;
-      const auto corner = compensator.viewCornerOf(player(i).id, seen);
+      const auto corner = compensator.viewCornerOf(world.player(i).id, seen);
       ASSERT_TRUE(corner);
       EXPECT_EQ(cellAt(*corner), replica.viewCorner(seen.drawn))
           << "tick " << world.tickNumber() << ", player " << i << ", " << base_age << ", " << drawn_age;
       ++compared;
-      scrolled += cellAt(*corner) == cellAt(player(i).view_corner) ? 0 : 1;
+      scrolled += cellAt(*corner) == cellAt(world.player(i).view_corner) ? 0 : 1;
     }
   }
   EXPECT_GT(compared, 3000);
@@ -181,7 +171,7 @@ TEST_F(LagCompensatorViews, MatchTheViewsThatClientsDrew) {
 TEST_F(LagCompensatorViews, RejectUnknownPlayersAndClampOldTicks) {
   for (int t = 0; t < 50; ++t) ASSERT_NO_FATAL_FAILURE(tick());
   const std::uint32_t now = world.tickNumber();
-  const std::uint32_t id = player(1).id;
+  const std::uint32_t id = world.player(1).id;
   EXPECT_TRUE(compensator.viewCornerOf(id, {true, now, now}));
   EXPECT_FALSE(compensator.viewCornerOf(id, {}));
   EXPECT_FALSE(compensator.viewCornerOf(999, {true, now, now}));
@@ -197,15 +187,15 @@ TEST_F(LagCompensatorViews, AreNotCompensatedWhenPlayersSteerTheFollowedObject) 
   df::PlayerFacts& steers = view.players[0];
   steers.followed = {3, 1};
   steers.steering.object = steers.followed;
-  compensator.recordTick(publisher, view);
+  compensator.recordTick(world.publisher, view);
   const df::ViewedTick seen{true, world.tickNumber(), world.tickNumber()};
   EXPECT_TRUE(compensator.viewCornerOf(steers.id, seen)) << "by no declared controls";
   steers.steering.p_table = std::make_shared<const df::ControlTable>();
-  compensator.recordTick(publisher, view);
+  compensator.recordTick(world.publisher, view);
   EXPECT_FALSE(compensator.viewCornerOf(steers.id, seen)) << "the client draws it ahead";
   EXPECT_TRUE(compensator.viewCornerOf(view.players[1].id, seen));
   steers.steering.object = {4, 1};
-  compensator.recordTick(publisher, view);
+  compensator.recordTick(world.publisher, view);
   EXPECT_TRUE(compensator.viewCornerOf(steers.id, seen)) << "the view follows another object than they steer";
 }
 

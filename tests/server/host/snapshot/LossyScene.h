@@ -45,6 +45,10 @@ class LossyScene {
     m_clock.advanceBy(std::chrono::microseconds(33'333));
     for (const std::string& bytes : std::exchange(m_late, {})) clientHears(bytes);
   }
+  /// Runs ticks until the test has failed.
+  void play(int ticks, bool quiet = false) {
+    for (int i = 0; i < ticks && !testing::Test::HasFatalFailure(); ++i) tick(quiet);
+  }
   void setConditions(const LinkConditions& conditions) {
     m_link.setConditions(LinkEnd::kServer, conditions);
     m_link.setConditions(LinkEnd::kClient, conditions);

@@ -2,16 +2,11 @@
 
 #include <vector>
 
+#include "DirectSender.h"
 #include "SimulatedWorld.h"
 #include "host/snapshot/LookCapture.h"
-#include "host/snapshot/Publisher.h"
-#include "host/snapshot/SnapshotSender.h"
 #include "shared/replica/Limits.h"
 #include "shared/replica/LookCodec.h"
-#include "shared/replica/Replica.h"
-#include "shared/values/SplitMix64.h"
-#include "shared/values/Vector.h"
-#include "tests/support/CellsAt.h"
 
 namespace naiad {
 namespace {
@@ -330,33 +325,26 @@ TEST_F(PublisherTest, SlotsBeyondTheLastAreRefusedAndCounted) {
 
 // Tests the whole chain: in every tick, a client draws exactly the world's cells.
 void expectSamePictures(const test::WorldConfig& config, std::uint64_t seed, int ticks) {
-  test::SimulatedWorld world(config, seed);
-  Publisher publisher;
+  test::PublishedWorld world(config, seed);
   struct Client {
     SnapshotSender sender;
-    Replica replica;
-    AckWindow acks;
+    test::SnapshotReader reader;
   };
   std::vector<Client> clients(config.players);
   for (int i = 0; i < ticks; ++i) {
     world.tick();
-    publisher.update(world.view());
     for (std::size_t p = 0; p < clients.size(); ++p) {
       Client& client = clients[p];
       if (i < static_cast<int>(p) * 30) continue;  // the player joins later
-      client.sender.applyTick(publisher, world.view().players[p]);
+      client.sender.applyTick(world.publisher, world.player(p));
       for (int round = 0; round < 3 && (round == 0 || !client.sender.isSettled()); ++round) {
-        for (const SnapshotSender::Packet& packet : client.sender.build(publisher)) {
-          Snapshot snapshot;
-          ASSERT_EQ(client.replica.read(packet.bytes, snapshot), ReadResult::kOk);
-          client.replica.apply(snapshot);
-          client.acks.addReceived(packet.number);
-        }
-        client.sender.acknowledge(client.acks);
+        for (const SnapshotSender::Packet& packet : client.sender.build(world.publisher))
+          client.reader.read(packet.bytes);
+        client.sender.acknowledge(client.reader.acks);
       }
       ASSERT_TRUE(client.sender.isSettled());
       const df::Canvas wanted = world.picture(p);
-      const df::Canvas seen = client.replica.render(world.tickNumber());
+      const df::Canvas seen = client.reader.replica.render(world.tickNumber());
       ASSERT_EQ(countDifferences(wanted, seen), 0)
           << "seed " << seed << ", tick " << i << ", player " << p << "\n"
           << test::explain(wanted, seen);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/world/WorldView.h"
+#include "host/snapshot/Publisher.h"
 #include "shared/replica/Look.h"
 #include "shared/values/Canvas.h"
 #include "shared/values/SplitMix64.h"
@@ -77,6 +78,18 @@ class SimulatedWorld {
   std::vector<std::uint32_t> m_order;  ///< slots in creation order
   std::uint64_t m_next_order = 1;
   df::WorldView m_view;
+};
+
+/// A simulated world and its published models.
+struct PublishedWorld : SimulatedWorld {
+  using SimulatedWorld::SimulatedWorld;
+  void tick(bool quiet = false) {
+    SimulatedWorld::tick(quiet);
+    publisher.update(view());
+  }
+  const df::PlayerFacts& player(std::size_t index = 0) const { return view().players[index]; }
+
+  Publisher publisher;
 };
 
 /// Returns, as text for failure messages, the rows of both canvases that differ.

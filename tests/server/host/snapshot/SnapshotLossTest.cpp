@@ -41,6 +41,14 @@ class LossyPair : public test::LossyScene {
     ASSERT_EQ(countDifferences(wanted, seen), 0) << test::explain(wanted, seen);
   }
 
+  /// Lets the link be perfect and the world quiet for these ticks, after which all must be right.
+  void heal(int ticks) {
+    setConditions({});
+    play(ticks, true);
+    EXPECT_TRUE(sender.isSettled());
+    expectSame();
+  }
+
   std::size_t snapshots = 0;
   std::size_t reuses = 0;  ///< births under an id that was used before
   std::size_t checks = 0;  ///< number of checksums compared
@@ -97,11 +105,8 @@ TEST(SnapshotLoss, EveryReplicaIsRightOnceABadLinkHeals) {
     bad.jitter = std::chrono::microseconds(rng.below(120'000));
     const test::WorldConfig config{.objects = 5 + rng.below(60), .turn = 0.05, .vanish = 0.02};
     LossyPair pair(config, bad, seed, static_cast<Resend>(seed % 3));
-    for (int i = 0; i < 150 && !testing::Test::HasFatalFailure(); ++i) pair.tick();
-    pair.setConditions({});
-    for (int i = 0; i < 40 && !testing::Test::HasFatalFailure(); ++i) pair.tick(true);
-    EXPECT_TRUE(pair.sender.isSettled());
-    pair.expectSame();
+    pair.play(150);
+    pair.heal(40);
     if (testing::Test::HasFailure()) return;
     lost += pair.down().dropped;
     reordered += pair.down().reordered;
@@ -125,7 +130,7 @@ TEST(SnapshotLoss, FollowingViewsAreRightOnceABadLinkHeals) {
     const test::WorldConfig config{
         .width = 300, .height = 120, .objects = 6, .turn = 0.1, .block = 0.1, .vanish = 0.002};
     LossyPair pair(config, {.delay = 60ms, .loss = 0.3}, seed, static_cast<Resend>(seed % 3));
-    for (int i = 0; i < 100 && !testing::Test::HasFatalFailure(); ++i) pair.tick();
+    pair.play(100);
     pair.setConditions({});
     // The replica is correct as soon as everything has arrived, not only after the next correction.
     for (int i = 0; i < 40 && !testing::Test::HasFatalFailure(); ++i) {
@@ -145,40 +150,32 @@ TEST(SnapshotLoss, NothingIsSentTwiceWhereNothingIsLost) {
                               .reorder = false,
                               .duplicate = 0.1};
     LossyPair pair({.objects = 60}, slow, seed);
-    for (int i = 0; i < 150; ++i) pair.tick();
+    pair.play(150);
     EXPECT_EQ(pair.sender.resentCount(), 0u);
     pair.setConditions({});
-    for (int i = 0; i < 20; ++i) pair.tick(true);
+    pair.play(20, true);
     pair.expectSame();
     if (testing::Test::HasFailure()) return;
   }
 }
 
 TEST(SnapshotLoss, AWorldLargerThanTheWindowArrivesWithoutResending) {
-  test::WorldConfig config;
-  config.objects = 12000;
-  config.width = 40;
-  config.height = 20;
+  test::WorldConfig config{.width = 40, .height = 20, .objects = 12000};
   config.turn = config.block = config.restyle = config.vanish = config.hide = config.reshape = 0;
   LossyPair pair(config, {.delay = 70ms}, 1);
-  for (int i = 0; i < 60 && !testing::Test::HasFatalFailure(); ++i) pair.tick(i > 0);
+  pair.tick();
+  pair.play(59, true);
   EXPECT_GT(pair.snapshots, 2 * SnapshotSender::kMaxInFlight);
   EXPECT_EQ(pair.sender.resentCount(), 0u);
-  pair.setConditions({});
-  for (int i = 0; i < 10 && !testing::Test::HasFatalFailure(); ++i) pair.tick(true);
-  EXPECT_TRUE(pair.sender.isSettled());
-  pair.expectSame();
+  pair.heal(10);
 }
 
 TEST(SnapshotLoss, ALinkThatWasDeadForSecondsRecovers) {
   LossyPair pair({}, {}, 3);
-  for (int i = 0; i < 20; ++i) pair.tick();
+  pair.play(20);
   pair.setConditions({.loss = 1});
-  for (int i = 0; i < 300; ++i) pair.tick();
-  pair.setConditions({});
-  for (int i = 0; i < 20; ++i) pair.tick(true);
-  EXPECT_TRUE(pair.sender.isSettled());
-  pair.expectSame();
+  pair.play(300);
+  pair.heal(20);
 }
 
 }  // namespace

@@ -74,14 +74,12 @@ TEST(SnapshotSender, AcknowledgementsOfWhatWasNeverSentAreIgnored) {
 TEST(SnapshotSender, AnyAcknowledgementsAreHarmless) {
   SplitMix64 rng(8);
   for (int run = 0; run < 50; ++run) {
-    test::SimulatedWorld world({}, static_cast<std::uint64_t>(run));
-    Publisher publisher;
+    test::PublishedWorld world({}, static_cast<std::uint64_t>(run));
     SnapshotSender sender;
     for (int i = 0; i < 60; ++i) {
       world.tick();
-      publisher.update(world.view());
-      sender.applyTick(publisher, world.view().players[0]);
-      for (const auto& packet : sender.build(publisher)) {
+      sender.applyTick(world.publisher, world.player());
+      for (const auto& packet : sender.build(world.publisher)) {
         ASSERT_LE(packet.bytes.size(), packet.large ? kMaxSnapshot : kMaxDatagramSnapshot);
       }
       for (auto n = rng.below(4); n > 0; --n) {

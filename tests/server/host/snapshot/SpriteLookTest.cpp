@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "DirectSender.h"
 #include "SimulatedWorld.h"
 #include "engine/managers/DisplayManager.h"
 #include "engine/managers/WorldManager.h"
@@ -19,9 +20,6 @@
 #include "engine/world/World.h"
 #include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
-#include "host/snapshot/Publisher.h"
-#include "host/snapshot/SnapshotSender.h"
-#include "shared/replica/Replica.h"
 
 namespace naiad {
 namespace {
@@ -63,7 +61,7 @@ class Show {
   }
 
   char32_t shown(int x, int y) const {
-    return m_replica.render(static_cast<std::uint32_t>(world.getStepCount())).at(x, y).ch;
+    return m_reader.replica.render(static_cast<std::uint32_t>(world.getStepCount())).at(x, y).ch;
   }
 
   df::World world;
@@ -76,16 +74,13 @@ class Show {
     m_sender.applyTick(m_publisher, world.views().player(m_player)->facts());
     std::size_t bytes = 0;
     for (const SnapshotSender::Packet& packet : m_sender.build(m_publisher)) {
-      Snapshot snapshot;
-      EXPECT_EQ(m_replica.read(packet.bytes, snapshot), ReadResult::kOk);
-      m_replica.apply(snapshot);
-      m_acks.addReceived(packet.number);
+      m_reader.read(packet.bytes);
       bytes += packet.bytes.size();
     }
-    m_sender.acknowledge(m_acks);
-    EXPECT_EQ(m_sender.known().checksum(), m_replica.checksum());
+    m_sender.acknowledge(m_reader.acks);
+    EXPECT_EQ(m_sender.known().checksum(), m_reader.replica.checksum());
     const df::Canvas wanted = world.picture().renderPlayer(m_player);
-    const df::Canvas seen = m_replica.render(static_cast<std::uint32_t>(world.getStepCount()));
+    const df::Canvas seen = m_reader.replica.render(static_cast<std::uint32_t>(world.getStepCount()));
     EXPECT_EQ(countDifferences(wanted, seen), 0) << "tick " << world.getStepCount() << "\n"
                                                  << test::explain(wanted, seen);
     return bytes;
@@ -94,8 +89,7 @@ class Show {
   std::uint32_t m_player = 0;
   Publisher m_publisher;
   SnapshotSender m_sender;
-  Replica m_replica;
-  AckWindow m_acks;
+  test::SnapshotReader m_reader;
 };
 
 std::size_t idle(int count) {
