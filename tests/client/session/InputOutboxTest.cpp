@@ -35,15 +35,6 @@ TEST(InputOutbox, SendsEachInputOncePerStream) {
   EXPECT_EQ(ids(outbox.popForStream()), (std::vector<std::uint32_t>{2, 3}));
 }
 
-TEST(InputOutbox, ContinuesTheIdsOfAnotherProcess) {
-  InputOutbox outbox;
-  outbox.start(0xFFFFFFF0, std::chrono::milliseconds(33));
-  outbox.add({});
-  EXPECT_EQ(ids(outbox.all()), std::vector<std::uint32_t>{0xFFFFFFF1});
-  EXPECT_EQ(ids(outbox.popForStream()), std::vector<std::uint32_t>{0xFFFFFFF1});
-  EXPECT_TRUE(outbox.removeUpTo(0xFFFFFFF1));
-}
-
 TEST(InputOutbox, KeepsRoomForKeyReleases) {
   InputOutbox outbox;
   while (!outbox.isFull(false)) outbox.add({});

@@ -21,13 +21,12 @@ FixedVector cells(int x, int y) {
   return {fromCells(x), fromCells(y)};
 }
 
-ObjectRecord object(std::uint32_t slot, FixedVector at, FixedVector velocity = {},
-                    df::Solidness solidness = df::HARD) {
+ObjectRecord object(std::uint32_t slot, FixedVector at, FixedVector velocity = {}) {
   ObjectRecord record{slot, 1, kAllGroups, {}};
   record.state.order = slot;
   record.state.motion = {kFirstTick, at, velocity, {}};
   record.state.look.sequence = {{Glyph{0, 0, U'@', df::WHITE}}};
-  record.state.body = {{{-kFixedOne / 2, -kFixedOne / 2}, {kFixedOne, kFixedOne}}, solidness, false};
+  record.state.body = {{{-kFixedOne / 2, -kFixedOne / 2}, {kFixedOne, kFixedOne}}, df::HARD, false};
   return record;
 }
 
@@ -112,30 +111,12 @@ TEST_F(PredictionTest, NothingIsPredictedWithoutTableStateOrObject) {
   EXPECT_FALSE(other.isActive());
 }
 
-TEST_F(PredictionTest, InputTakesEffectAtItsTick) {
-  press(1, D, KEY_PRESSED, kFirstTick + 5);
-  EXPECT_EQ(at(kFirstTick + 4), cells(10, 10));
-  EXPECT_EQ(at(kFirstTick + 5), cells(11, 10));
-  EXPECT_EQ(at(kFirstTick + 9), cells(11, 10));
-}
-
 TEST_F(PredictionTest, InputsTakeEffectInSendOrder) {
   press(1, D, KEY_PRESSED, kFirstTick + 5);
   press(2, S, KEY_PRESSED, kFirstTick + 3);
   prediction.applyControl(state(kFirstTick + 1, 1, cells(10, 10)));
   EXPECT_EQ(at(kFirstTick + 4), cells(10, 10));
   EXPECT_EQ(at(kFirstTick + 5), cells(10, 11));
-}
-
-TEST_F(PredictionTest, ControlStateRemovesConfirmedInputs) {
-  press(1, D, KEY_PRESSED, kFirstTick + 2);
-  press(2, S, KEY_PRESSED, kFirstTick + 6);
-  EXPECT_EQ(at(kFirstTick + 8), cells(11, 11));
-  prediction.applyControl(state(kFirstTick + 3, 1, cells(11, 10)));
-  EXPECT_EQ(prediction.pendingInputs(), 1u);
-  EXPECT_EQ(at(kFirstTick + 8), cells(11, 11));
-  EXPECT_EQ(prediction.counters().confirmed, 1u);
-  EXPECT_EQ(prediction.counters().mispredicted, 0u);
 }
 
 TEST_F(PredictionTest, LateInputIsExpectedInTheNextTick) {
@@ -181,21 +162,6 @@ TEST_F(PredictionTest, ObjectsMoveInOrderOfCreation) {
   for (const auto& [slot, wanted] : {std::pair{kOwnSlot - 1, 11}, {kOwnSlot + 1, 10}}) {
     const auto block = object(slot, cells(12, 10), cells(1, 0));
     EXPECT_EQ(afterOneStep(object(kOwnSlot, cells(10, 10)), block), cells(wanted, 10)) << "slot " << slot;
-  }
-}
-
-TEST_F(PredictionTest, HardBlocksAndSoftBlocksOnlyNoSoft) {
-  for (const auto& [own, no_soft, other, wanted] : {std::tuple{df::HARD, false, df::HARD, 10},
-                                                    {df::HARD, false, df::SOFT, 11},
-                                                    {df::SOFT, false, df::HARD, 11},
-                                                    {df::SOFT, true, df::SOFT, 10},
-                                                    {df::HARD, true, df::SOFT, 10},
-                                                    {df::SPECTRAL, true, df::SOFT, 11},
-                                                    {df::HARD, true, df::SPECTRAL, 11}}) {
-    ObjectRecord me = object(kOwnSlot, cells(10, 10), {}, own);
-    me.state.body.no_soft = no_soft;
-    EXPECT_EQ(afterOneStep(me, object(1, cells(12, 10), {}, other)), cells(wanted, 10))
-        << own << no_soft << other;
   }
 }
 

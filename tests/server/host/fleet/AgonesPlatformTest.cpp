@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <stop_token>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "FakeSidecar.h"
@@ -25,19 +23,6 @@ const std::string kServer =
 std::pair<int, std::string> well(const std::string& request) {
   return {200, request == "GET /gameserver" ? kServer : "{}"};
 }
-
-/// A server that ticks while this exists. After half a second without ticks it would not count as healthy.
-class Ticks {
- public:
-  explicit Ticks(AgonesPlatform& platform)
-      : m_thread([&platform](const std::stop_token& stop) {
-          for (; !stop.stop_requested(); std::this_thread::sleep_for(33ms))
-            platform.notifyTick(AgonesPlatform::Clock::now());
-        }) {}
-
- private:
-  std::jthread m_thread;
-};
 
 TEST(AgonesPlatform, RetriesUntilALateAndBusySidecarAnswers) {
   FakeSidecar sidecar;
@@ -59,30 +44,6 @@ TEST(AgonesPlatform, RetriesUntilALateAndBusySidecarAnswers) {
   EXPECT_EQ(platform.address()->host, "192.0.2.7");
   EXPECT_EQ(platform.address()->port, 7012);
   EXPECT_NE(news.find("players reach naiad-x7 at 192.0.2.7:7012"), std::string::npos) << news;
-}
-
-TEST(AgonesPlatform, SendsPlayerCountAndListAndHealthOnTicks) {
-  FakeSidecar sidecar;
-  sidecar.start(well);
-  AgonesPlatform platform(sidecar.port());
-  platform.notifyReady();
-  platform.notifyPlayers({"", {3, 17}, 64});
-  EXPECT_TRUE(sidecar.waitFor(R"(PATCH /v1beta1/lists/players {"capacity":"64","values":["3","17"]})"));
-  EXPECT_TRUE(sidecar.waitFor(R"(PATCH /v1beta1/counters/players {"count":"2","capacity":"64"})"));
-  EXPECT_TRUE(sidecar.waitFor("POST /allocate {}"));
-  const auto requests = sidecar.requests();
-  EXPECT_EQ(std::ranges::count(requests, "POST /health {}"), 0) << "no tick yet";
-  const Ticks ticks(platform);
-  EXPECT_TRUE(sidecar.waitFor("POST /health {}"));
-}
-
-TEST(AgonesPlatform, FinishSendsShutdownBeforeReturning) {
-  FakeSidecar sidecar;
-  sidecar.start(well);
-  AgonesPlatform platform(sidecar.port());
-  platform.notifyReady();
-  platform.finish(60s);
-  EXPECT_EQ(sidecar.requests().back(), "POST /shutdown {}");
 }
 
 TEST(AgonesPlatform, FinishWithoutASidecarTimesOut) {

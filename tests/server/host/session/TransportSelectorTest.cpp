@@ -165,15 +165,6 @@ TEST_F(TransportSelectorTest, MeasuresTheRoundTripOfTheNewest) {
   EXPECT_EQ(selector.shortestRoundTrip(), 40ms);
 }
 
-TEST_F(TransportSelectorTest, TheShortestRoundTripIsForgottenAfterTenSeconds) {
-  run(1s, 20ms);
-  EXPECT_EQ(selector.shortestRoundTrip(), 20ms);
-  run(4s, 80ms);
-  EXPECT_EQ(selector.shortestRoundTrip(), 20ms);
-  run(11s, 80ms);
-  EXPECT_EQ(selector.shortestRoundTrip(), 80ms);
-}
-
 TEST_F(TransportSelectorTest, QueueingDelayLowersTheRateStepByStep) {
   EXPECT_EQ(run(2s, 20ms), 1u);
   EXPECT_EQ(run(900ms, 150ms), 1u);

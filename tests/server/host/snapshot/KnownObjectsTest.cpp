@@ -156,26 +156,6 @@ TEST_F(KnownObjectsTest, AnIdReusedWithinATickIsPendingOnce) {
   EXPECT_TRUE(known.pendingIds().empty());
 }
 
-TEST_F(KnownObjectsTest, ADeathIsPendingUntilItArrived) {
-  const std::uint32_t id = alive(3);
-  known.addPending(id, kMotion, 4);
-  known.removeObject(id, 5);
-  EXPECT_EQ(known.find(3), KnownObjects::kNone);
-  EXPECT_EQ(known.aliveCount(), 0u);
-  EXPECT_EQ(known.at(id).life, Life::kDying);
-  EXPECT_TRUE(isPending(id));
-  EXPECT_EQ(known.groupsToSend(id), kDeath);
-  const Sent death = send(id, 10);
-  EXPECT_EQ(death.groups, kDeath);
-  EXPECT_FALSE(isPending(id));
-  EXPECT_TRUE(known.requeueLost(death, 10, 20));
-  EXPECT_TRUE(isPending(id));
-  EXPECT_EQ(known.groupsToSend(id), kDeath);
-  known.confirmArrival(send(id, 11), 11);
-  EXPECT_EQ(known.at(id).life, Life::kFree);
-  EXPECT_FALSE(known.requeueLost(death, 10, 30)) << "it is over";
-}
-
 TEST_F(KnownObjectsTest, IdIsReusedOnlyAfterItsDeathArrived) {
   const std::uint32_t first = alive(3);
   known.removeObject(first, 5);
