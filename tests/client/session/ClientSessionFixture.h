@@ -8,20 +8,34 @@
 
 #include "client/session/ClientSession.h"
 #include "naiad.pb.h"
-#include "shared/replica/SnapshotCodec.h"
 #include "shared/replica/UpdateCodec.h"
 #include "tests/support/MessageLine.h"
+#include "tests/support/WriteSnapshot.h"
 
 namespace naiad::test {
+
+inline wire::ServerMessage welcomeMessage() {
+  wire::ServerMessage message;
+  wire::Welcome& welcome = *message.mutable_welcome();
+  welcome.set_player(3);
+  welcome.set_name("Ada");
+  welcome.set_game("saucershoot");
+  welcome.set_tick_micros(33333);
+  welcome.set_view_width(80);
+  welcome.set_view_height(24);
+  welcome.set_color(df::CYAN);
+  welcome.set_server("dfserver 0.1");
+  welcome.add_help("Space fires.");
+  return message;
+}
 
 /// Returns a snapshot without records; with `sets_origin` it sets the first origin slot.
 inline wire::ServerMessage bareSnapshot(const SnapshotHeader& header, std::uint32_t slot = 0,
                                         bool sets_origin = false) {
-  SnapshotWriter out;
-  out.beginSnapshot(header, slot, {});
-  if (sets_origin) out.write(OriginRecord{1, {}});
+  Records records;
+  if (sets_origin) records.origins = {{1, {}}};
   wire::ServerMessage message;
-  message.set_snapshot(out.finish());
+  message.set_snapshot(writeSnapshot(header, records, slot));
   return message;
 }
 
@@ -41,20 +55,7 @@ class ClientSessionFixture : public testing::Test {
 
   void receive(const wire::ServerMessage& message) { session->receive(message.SerializeAsString(), now); }
 
-  static wire::ServerMessage welcomeMessage() {
-    wire::ServerMessage message;
-    wire::Welcome& welcome = *message.mutable_welcome();
-    welcome.set_player(3);
-    welcome.set_name("Ada");
-    welcome.set_game("saucershoot");
-    welcome.set_tick_micros(33333);
-    welcome.set_view_width(80);
-    welcome.set_view_height(24);
-    welcome.set_color(df::CYAN);
-    welcome.set_server("dfserver 0.1");
-    welcome.add_help("Space fires.");
-    return message;
-  }
+  static wire::ServerMessage welcomeMessage() { return test::welcomeMessage(); }
   void join() { receive(welcomeMessage()); }
 
   /// Returns a snapshot with object 5 at (10, 4) and the id of the last applied input, if not 0.
@@ -66,16 +67,13 @@ class ClientSessionFixture : public testing::Test {
     header.has_input = input != 0;
     header.input = input;
     header.input_tick = tick;
-    SnapshotWriter out;
-    out.beginSnapshot(header, 0, {});
-    ObjectState state;
-    state.motion = {tick, {df::fromCells(10), df::fromCells(4)}, {}, {}};
-    state.look.sequence = {{Glyph{0, 0, U'@', df::RED}}};
-    BitWriter bits;
-    out.encode(bits, kAllGroups, 1, state, state.motion);
-    out.object(5, std::move(bits));
+    ObjectRecord object{5, 1, kAllGroups, {}};
+    object.state.motion = {tick, {df::fromCells(10), df::fromCells(4)}, {}, {}};
+    object.state.look.sequence = {{Glyph{0, 0, U'@', df::RED}}};
+    Records records;
+    records.objects = {object};
     wire::ServerMessage message;
-    message.set_snapshot(out.finish());
+    message.set_snapshot(writeSnapshot(header, records));
     return message;
   }
   void snapshot(std::uint32_t number, std::uint32_t tick) { receive(snapshotMessage(number, tick)); }

@@ -325,23 +325,6 @@ TEST_F(ClientSessionTest, ResentWorldContinuesTheNumbering) {
   EXPECT_EQ(lastUpdate().acks.newest, 40'002u);
 }
 
-TEST_F(ClientSessionTest, WorldAfterSkippedResetsIsAccepted) {
-  join();
-  snapshot(1, 10);
-  for (const auto& [number, epoch, resets] :
-       {std::tuple(50u, 2, 1u), {60u, 3, 2u}, {55u, 2, 2u}, {70u, 2, 3u}}) {
-    SnapshotHeader header;
-    header.number = number;
-    header.tick = number;
-    header.epoch = static_cast<std::uint8_t>(epoch);
-    header.complete = true;
-    receive(test::bareSnapshot(header));
-    EXPECT_EQ(session->counters().resets, resets)
-        << "55 is late, of the epoch before; 70 begins the world after next";
-  }
-  EXPECT_EQ(session->replica().newest().number, 70u);
-}
-
 TEST_F(ClientSessionTest, LostServerCancelsTheDueAcknowledgement) {
   join();
   snapshot(1, 100);

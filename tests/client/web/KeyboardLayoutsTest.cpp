@@ -4,7 +4,6 @@
 
 #include <array>
 #include <string>
-#include <vector>
 
 #include "client/terminal/InputDecoder.h"
 #include "client/ui/ClientControls.h"

@@ -2,8 +2,7 @@
 
 #include "client/web/WebClient.h"
 #include "shared/net/base/WebSocketProtocol.h"
-#include "shared/replica/SnapshotCodec.h"
-#include "shared/replica/UpdateCodec.h"
+#include "tests/client/session/ClientSessionFixture.h"
 #include "tests/client/web/FakePage.h"
 
 namespace naiad {
@@ -36,15 +35,10 @@ class WebClientTest : public testing::Test {
     client->streams().opened(first);
   }
   void welcome(bool resumed = false) {
-    wire::ServerMessage message;
+    wire::ServerMessage message = test::welcomeMessage();
     wire::Welcome& welcome = *message.mutable_welcome();
-    welcome.set_player(3);
-    welcome.set_name("Ada");
-    welcome.set_game("saucershoot");
-    welcome.set_tick_micros(33333);
     welcome.set_view_width(60);
     welcome.set_view_height(20);
-    welcome.set_color(df::CYAN);
     welcome.set_resume_token("\x01\xab");
     welcome.set_resumed(resumed);
     if (resumed) welcome.mutable_resume_state()->set_snapshot(1);
@@ -57,11 +51,7 @@ class WebClientTest : public testing::Test {
     header.number = number;
     header.tick = number;
     header.complete = true;
-    SnapshotWriter out;
-    out.beginSnapshot(header, 0, {});
-    wire::ServerMessage message;
-    message.set_snapshot(out.finish());
-    receive(message);
+    receive(test::bareSnapshot(header));
   }
   void play() {
     open();

@@ -1,13 +1,9 @@
 // The client's prediction in a real world: the world then does what the client showed.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <memory>
-
 #include "FarPlayer.h"
 #include "engine/world/Controls.h"
 #include "engine/world/EventCollision.h"
-#include "engine/world/Views.h"
 
 namespace naiad::test {
 namespace {

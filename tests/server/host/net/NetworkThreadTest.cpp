@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "WithIdentity.h"
-#include "host/auth/ResumeTokens.h"
 #include "host/net/Mailbox.h"
 #include "host/net/NetworkThread.h"
 #include "host/net/RelayedStream.h"
