@@ -36,11 +36,6 @@ TEST_F(CompletenessTrackerTest, LateSnapshotDoesNotMoveTheTickBack) {
   EXPECT_EQ(picture.tick(), 105u);
 }
 
-TEST_F(CompletenessTrackerTest, IsIncompleteUntilTheFirstSnapshotArrives) {
-  EXPECT_FALSE(addSnapshot(2, true)) << "the world was in 1, on the stream";
-  EXPECT_TRUE(addSnapshot(1, false));
-}
-
 TEST_F(CompletenessTrackerTest, MissingSnapshotMattersUntil65NewerOnesArrive) {
   addSnapshot(1, true);
   for (std::uint32_t number = 3; number <= 66; ++number) EXPECT_FALSE(addSnapshot(number, true)) << number;

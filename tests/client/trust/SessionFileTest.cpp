@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -216,28 +214,6 @@ TEST_F(SessionFileTest, AFailureToWriteIsReportedOnce) {
   for (int i = 0; i < 3; ++i) file->save(session("token"), now);
   file->refresh(now + 1h);
   EXPECT_EQ(file->problems().size(), 1u);
-}
-
-TEST_F(SessionFileTest, TheLockEndsWithTheProcess) {
-  int ready[2];
-  ASSERT_EQ(pipe(ready), 0);
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    SessionFile file(directory, kServer, std::nullopt, now);
-    file.save(session("token"), now);
-    [[maybe_unused]] const auto written = write(ready[1], "x", 1);
-    pause();
-    _exit(0);
-  }
-  char byte = 0;
-  ASSERT_EQ(read(ready[0], &byte, 1), 1);
-  EXPECT_EQ(open()->tokenFor(keyOf('a')), "");
-  kill(child, SIGKILL);
-  waitpid(child, nullptr, 0);
-  close(ready[0]);
-  close(ready[1]);
-  EXPECT_EQ(open()->tokenFor(keyOf('a')), "token");
 }
 
 TEST_F(SessionFileTest, LiesInTheStateDirectory) {

@@ -81,16 +81,9 @@ TEST_F(SoundIndicatorTest, StoppingASoundClearsOnlyItsOwnNote) {
   EXPECT_EQ(note(), "");
 }
 
-TEST_F(SoundIndicatorTest, ModesAreParsedByName) {
+TEST(SoundMode, IsParsedByName) {
   EXPECT_EQ(soundModeFrom("bell"), SoundMode::kBell);
   EXPECT_EQ(soundModeFrom("loud"), std::nullopt);
-  notes = SoundIndicator(*soundModeFrom("note"));
-  sound("fire");
-  EXPECT_EQ(note(), "sound: fire");
-  EXPECT_FALSE(notes.popBell());
-  notes = SoundIndicator(*soundModeFrom("off"));
-  sound("fire");
-  EXPECT_EQ(note(), "");
 }
 
 }  // namespace
