@@ -1,12 +1,11 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <fstream>
 
 #include "client/bot/TruthRecorder.h"
 #include "shared/replica/Replica.h"
 #include "shared/replica/TruthFile.h"
+#include "tests/support/TempFolder.h"
 #include "tests/support/Text.h"
 
 namespace naiad {
@@ -14,11 +13,11 @@ namespace {
 
 class TruthFileTest : public testing::Test {
  protected:
-  void TearDown() override { std::remove(path.c_str()); }
   std::string contents() const { return test::contentOf(path); }
   void put(const std::string& text) const { std::ofstream(path, std::ios::binary) << text; }
 
-  std::string path = testing::TempDir() + "naiad-truth-" + std::to_string(getpid());
+  const test::TempFolder folder;
+  const std::string path = folder / "truth";
 };
 
 df::Canvas picture(char32_t ch, df::Color color) {
@@ -95,25 +94,32 @@ df::Canvas starAt(int x) {
   return canvas;
 }
 
-TEST_F(TruthFileTest, RecorderTakesTheLastPictureOfEachTick) {
-  Replica replica;
-  TruthRecorder recorder;
-  std::uint32_t number = 0;
-  AckWindow acks;
-  const auto take = [&](std::uint32_t tick, std::vector<ObjectRecord> objects) {
+/// A recorder of snapshots.
+struct Recording {
+  void take(std::uint32_t tick, bool complete, bool skips, std::vector<ObjectRecord> objects = {}) {
     recorder.beforeSnapshot(replica, tick);
     Snapshot snapshot;
-    snapshot.header.number = ++number;
+    snapshot.header.number = acks.newest + 1;
     snapshot.header.tick = tick;
+    snapshot.header.complete = complete;
     snapshot.records.objects = std::move(objects);
     replica.apply(snapshot);
-    acks.addReceived(number);
-    recorder.afterSnapshot(snapshot.header, acks, false);
-  };
-  take(10, {});
-  take(10, {star(10, 5, 1)});   // the second part of tick 10
-  take(13, {star(13, 20, 0)});  // ticks 11 and 12 have no snapshot and are extrapolated
-  recorder.finish(replica);
+    acks.addReceived(snapshot.header.number);
+    recorder.afterSnapshot(snapshot.header, acks, skips);
+  }
+
+  TruthRecorder recorder;
+  Replica replica;
+  AckWindow acks;
+};
+
+TEST_F(TruthFileTest, RecorderTakesTheLastPictureOfEachTick) {
+  Recording recording;
+  TruthRecorder& recorder = recording.recorder;
+  recording.take(10, true, false);
+  recording.take(10, true, false, {star(10, 5, 1)});   // the second part of tick 10
+  recording.take(13, true, false, {star(13, 20, 0)});  // ticks 11 and 12 are extrapolated
+  recorder.finish(recording.replica);
   EXPECT_EQ(recorder.tickCount(), 4u);
   EXPECT_EQ(recorder.movingCount(), 1u);
 
@@ -137,61 +143,35 @@ TEST_F(TruthFileTest, RecorderTakesTheLastPictureOfEachTick) {
   EXPECT_FALSE(recorder.compare(path + "-none", 1).readable);
 }
 
-/// Gives a recorder snapshots without records.
-class EmptySnapshots {
- public:
-  explicit EmptySnapshots(TruthRecorder& recorder) : m_recorder(recorder) {}
-
-  void take(std::uint32_t tick, bool complete, bool skips) {
-    m_recorder.beforeSnapshot(replica, tick);
-    SnapshotHeader header;
-    header.number = m_acks.newest + 1;
-    m_acks.addReceived(header.number);
-    header.tick = tick;
-    header.complete = complete;
-    m_recorder.afterSnapshot(header, m_acks, skips);
-  }
-
-  const Replica replica;
-
- private:
-  TruthRecorder& m_recorder;
-  AckWindow m_acks;
-};
-
 TEST_F(TruthFileTest, RecorderLeavesOutIncompleteTicks) {
-  TruthRecorder recorder;
-  EmptySnapshots snapshots(recorder);
-  const auto take = [&](std::uint32_t tick, bool complete, bool skips) {
-    snapshots.take(tick, complete, skips);
-  };
+  Recording recording;
   TruthWriter writer(path);
   const df::Canvas blank(80, 24);
   for (std::uint32_t tick = 1; tick <= 12; ++tick) {
     const bool whole = tick == 3 || tick == 4 || tick == 7 || tick >= 10;
     writer.write(tick, 1, whole ? blank : starAt(1));
   }
-  take(1, false, false);  // the first parts of a large world
-  take(2, false, false);
-  take(2, false, false);
-  take(3, false, false);
-  take(3, true, false);  // now complete
-  take(5, false, false);
-  take(7, true, true);  // on the stream, so 8 and 9 may have been skipped
-  take(10, true, false);
-  take(12, true, false);
-  recorder.finish(snapshots.replica);
-  const TruthRecorder::Comparison result = recorder.compare(path, 1);
+  recording.take(1, false, false);  // the first parts of a large world
+  recording.take(2, false, false);
+  recording.take(2, false, false);
+  recording.take(3, false, false);
+  recording.take(3, true, false);  // now complete
+  recording.take(5, false, false);
+  recording.take(7, true, true);  // on the stream, so 8 and 9 may have been skipped
+  recording.take(10, true, false);
+  recording.take(12, true, false);
+  recording.recorder.finish(recording.replica);
+  const TruthRecorder::Comparison result = recording.recorder.compare(path, 1);
   EXPECT_EQ(result.ticks, 6u);
   EXPECT_EQ(result.wrong, 0u) << "first at " << result.first_wrong_tick;
 }
 
 TEST_F(TruthFileTest, RecorderStopsAtItsCap) {
-  TruthRecorder recorder(80 * 24 * 10);
-  EmptySnapshots snapshots(recorder);
-  snapshots.take(1, true, false);
-  recorder.beforeSnapshot(snapshots.replica, 2000000000);  // a jump sent by a hostile server
-  EXPECT_EQ(recorder.tickCount(), 10u);
+  Recording recording;
+  recording.recorder = TruthRecorder(80 * 24 * 10);
+  recording.take(1, true, false);
+  recording.recorder.beforeSnapshot(recording.replica, 2000000000);  // a jump sent by a hostile server
+  EXPECT_EQ(recording.recorder.tickCount(), 10u);
 }
 
 }  // namespace

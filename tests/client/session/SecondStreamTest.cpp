@@ -140,9 +140,7 @@ TEST_F(SecondStreamTest, RecognisesRepeatedSnapshots) {
 }
 
 TEST_F(SecondStreamTest, SessionWithoutDatagramKeysWantsNoSecondStream) {
-  wire::ServerMessage message = welcomeMessage();
-  message.mutable_welcome()->set_second_stream(true);
-  receive(message);
+  receive(yes());
   for (std::uint32_t i = 1; i < 300; ++i, now += 33ms) {
     snapshot(i, i);
     ASSERT_FALSE(session->shouldOpenSecondStream(now));

@@ -226,15 +226,19 @@ TEST(InputDecoder, DecodesByteByByte) {
 }
 
 TEST(InputDecoder, EscapeIsAKeyOnlyAfter25Milliseconds) {
-  InputDecoder decoder;
-  EXPECT_TRUE(decoder.feed("\033", kFed).empty());
-  ASSERT_TRUE(decoder.deadline());
-  EXPECT_EQ(*decoder.deadline(), kFed + 25ms);
-  EXPECT_TRUE(decoder.flush(kFed + 24ms).empty());
-  EXPECT_EQ(decoder.flush(kFed + 25ms), Events{key(ESCAPE)});
-  EXPECT_FALSE(decoder.deadline());
-  // A later byte is a separate key, not part of a sequence.
-  EXPECT_EQ(decoder.feed("a", kFed + 26ms), Events{key(A, U'a')});
+  for (const bool in_records : {false, true}) {
+    SCOPED_TRACE(in_records ? "in key records" : "as a byte");
+    InputDecoder decoder;
+    EXPECT_FALSE(decoder.hasKeyRecords());
+    EXPECT_TRUE(decoder.feed(in_records ? spelled("\033") : "\033", kFed).empty());
+    EXPECT_EQ(decoder.hasKeyRecords(), in_records);
+    EXPECT_EQ(decoder.deadline(), kFed + 25ms);
+    EXPECT_TRUE(decoder.flush(kFed + 24ms).empty());
+    EXPECT_EQ(decoder.flush(kFed + 25ms), Events{key(ESCAPE)});
+    EXPECT_FALSE(decoder.deadline());
+    EXPECT_EQ(decoder.feed(in_records ? record('A', 'a') : "a", kFed + 26ms), Events{key(A, U'a')})
+        << "a separate key, not part of a sequence";
+  }
 }
 
 TEST(InputDecoder, LateBytesDoNotJoinAnExpiredEscape) {
@@ -265,17 +269,6 @@ TEST(InputDecoder, PasteMayPauseAndEndsByTimeout) {
   EXPECT_TRUE(decoder.flush(kFed + 3800ms).empty());
   EXPECT_EQ(decoder.flush(kFed + 3900ms), Events{PasteEvent{U"one two"}});
   EXPECT_EQ(decoder.feed("a", kFed + 3901ms), Events{key(A, U'a')});
-}
-
-TEST(InputDecoder, KeyRecordEscapeIsAKeyAfter25Milliseconds) {
-  InputDecoder decoder;
-  EXPECT_FALSE(decoder.hasKeyRecords());
-  EXPECT_TRUE(decoder.feed(spelled("\033"), kFed).empty());
-  EXPECT_TRUE(decoder.hasKeyRecords());
-  EXPECT_EQ(decoder.deadline(), kFed + 25ms);
-  EXPECT_TRUE(decoder.flush(kFed + 24ms).empty());
-  EXPECT_EQ(decoder.flush(kFed + 25ms), Events{key(ESCAPE)});
-  EXPECT_FALSE(decoder.deadline());
 }
 
 TEST(InputDecoder, KeyRecordPasteWithoutEndTimesOut) {

@@ -1,17 +1,16 @@
 #include <gtest/gtest.h>
 
-#include <optional>
-
 #include "client/web/WebStreamOpener.h"
 #include "shared/net/base/WebSocketProtocol.h"
 #include "tests/client/web/FakePage.h"
+#include "tests/shared/net/Recorder.h"
 
 namespace naiad {
 namespace {
 
 using namespace std::chrono_literals;
 
-class WebStreamOpenerTest : public testing::Test {
+class WebStreamOpenerTest : public testing::Test, protected test::Recorder {
  protected:
   void open() {
     streams.open([this](std::unique_ptr<ReliableChannel> opened, const std::string& message) {
@@ -24,8 +23,7 @@ class WebStreamOpenerTest : public testing::Test {
     open();
     streams.opened(page.newest);
     ASSERT_NE(channel, nullptr);
-    channel->start({[this](std::string_view frame) { frames.emplace_back(frame); },
-                    [this](CloseReason reason) { closed = reason; }});
+    channel->start(callbacks());
   }
 
   test::FakePage page;
@@ -33,8 +31,6 @@ class WebStreamOpenerTest : public testing::Test {
   std::unique_ptr<ReliableChannel> channel;
   std::string error;
   int done = 0;
-  std::vector<std::string> frames;
-  std::optional<CloseReason> closed;
 };
 
 TEST_F(WebStreamOpenerTest, AMessageIsAFrame) {
@@ -116,8 +112,7 @@ TEST_F(WebStreamOpenerTest, TwoStreamsAreIndependent) {
 TEST_F(WebStreamOpenerTest, ChannelMayBeDestroyedInItsOwnCallback) {
   open();
   streams.opened(page.newest);
-  channel->start(
-      {[this](std::string_view) { channel.reset(); }, [this](CloseReason reason) { closed = reason; }});
+  channel->start({[this](std::string_view) { channel.reset(); }, callbacks().on_closed});
   streams.received(page.newest, "bye");
   EXPECT_TRUE(page.streams[page.newest].closed);
   streams.received(page.newest, "bye");

@@ -68,6 +68,19 @@ FixedVector plainly(const Replica& replica, const ObjectState& mover, std::uint3
   return positionAt(mover.motion, drawn);
 }
 
+/// Expects the positions of the reference in tick `drawn`. Returns the number of objects that are held back.
+int expectPlain(const Replica& replica, std::uint32_t drawn) {
+  int held = 0;
+  const ExtrapolationClamp clamp(replica, kKnown, drawn);
+  EXPECT_FALSE(clamp.isExhausted());
+  for (const auto& [slot, entry] : replica.entries()) {
+    const FixedVector wanted = plainly(replica, entry.state, drawn);
+    EXPECT_EQ(clamp.positionOf(entry.state), wanted) << "slot " << slot;
+    held += wanted != positionAt(entry.state.motion, drawn) ? 1 : 0;
+  }
+  return held;
+}
+
 TEST_F(ExtrapolationClampTest, MatchesTheReferenceForRandomObjects) {
   int held = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -85,14 +98,8 @@ TEST_F(ExtrapolationClampTest, MatchesTheReferenceForRandomObjects) {
       add(cellsAt(x, y), cellsAt(vx, vy), static_cast<df::Solidness>(rng.below(3)),
           {cellsAt(-w / 2, -h / 2), cellsAt(w, h)});
     }
-    const auto drawn = kKnown + 1 + static_cast<std::uint32_t>(rng.below(8));
-    const ExtrapolationClamp clamp(replica, kKnown, drawn);
-    ASSERT_FALSE(clamp.isExhausted());
-    for (const auto& [slot, entry] : replica.entries()) {
-      const FixedVector wanted = plainly(replica, entry.state, drawn);
-      EXPECT_EQ(clamp.positionOf(entry.state), wanted) << "seed " << seed << " slot " << slot;
-      held += wanted != positionAt(entry.state.motion, drawn) ? 1 : 0;
-    }
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    held += expectPlain(replica, kKnown + 1 + static_cast<std::uint32_t>(rng.below(8)));
   }
   EXPECT_GT(held, 300);
 }
@@ -121,15 +128,7 @@ class CrowdedSpotTest : public ExtrapolationClampTest {
 
 TEST_F(CrowdedSpotTest, TwoHundredObjectsMatchTheReference) {
   fill(200);
-  const ExtrapolationClamp clamp(replica, kKnown, kKnown + 8);
-  ASSERT_FALSE(clamp.isExhausted());
-  int held = 0;
-  for (const auto& [slot, entry] : replica.entries()) {
-    const FixedVector wanted = plainly(replica, entry.state, kKnown + 8);
-    EXPECT_EQ(clamp.positionOf(entry.state), wanted) << "slot " << slot;
-    held += wanted != positionAt(entry.state.motion, kKnown + 8) ? 1 : 0;
-  }
-  EXPECT_GT(held, 20);
+  EXPECT_GT(expectPlain(replica, kKnown + 8), 20);
 }
 
 // Counts units of work, about ten nanoseconds each, so the result does not depend on the processor.

@@ -32,6 +32,11 @@ AddressPrefix prefix(int number) {
   return AddressPrefix::of(asio::ip::address_v4(static_cast<unsigned>(number)));
 }
 
+/// Returns a prefix in a network of its own.
+AddressPrefix network(int number) {
+  return AddressPrefix::of(asio::ip::address_v4(0x0A000001u + static_cast<unsigned>(number) * 256));
+}
+
 struct PasswordCheckTest : testing::Test {
   void ask(const AddressPrefix& from, const std::string& password, std::function<void(Answer)> done) {
     check->check(from, false, password, now, [this, done = std::move(done)](Answer answer) {
@@ -167,9 +172,6 @@ TEST_F(PasswordCheckTest, ImpossiblePasswordsAreNotComparedAndUseNoTries) {
 
 /// Attackers, each in its own network, who retry as soon as they have an answer.
 TEST_F(PasswordCheckTest, EightyGuessingAddressesDoNotBlockNewPlayers) {
-  const auto network = [](int i) {
-    return AddressPrefix::of(asio::ip::address_v4(0x0A000001u + static_cast<unsigned>(i) * 256));
-  };
   bool over = false;
   std::uint64_t guesses = 0;
   std::function<void(int)> attack = [&](int i) {
@@ -201,10 +203,9 @@ TEST_F(PasswordCheckTest, EightyGuessingAddressesDoNotBlockNewPlayers) {
 TEST_F(PasswordCheckTest, PrefixesWithPlayersAreCheckedFirst) {
   std::vector<int> order;
   for (int i = 0; i < 9; ++i) {
-    check->check(AddressPrefix::of(asio::ip::address_v4(0x0A000001u + static_cast<unsigned>(i) * 256)),
-                 i == 8, "open sesame", now, [&, i](Answer answer) {
-                   if (answer == Answer::kRight) order.push_back(i);
-                 });
+    check->check(network(i), i == 8, "open sesame", now, [&, i](Answer answer) {
+      if (answer == Answer::kRight) order.push_back(i);
+    });
   }
   context.run();
   EXPECT_EQ(order, (std::vector{0, 8, 1, 2, 3, 4, 5, 6})) << "after the one that was begun; one was too many";
@@ -454,12 +455,10 @@ class Siege {
   void schedule(int client, Time::duration delay) { m_events.emplace(m_now + delay, client); }
   bool isPlayer(int client) const { return client >= m_attack.clients; }
   AddressPrefix prefixOf(int client) const {
-    const auto number = static_cast<unsigned>(client);
-    if (isPlayer(client) || !m_attack.is_one_network)
-      return AddressPrefix::of(asio::ip::address_v4(0x0A000001u + number * 256));
+    if (isPlayer(client) || !m_attack.is_one_network) return network(client);
     return AddressPrefix(AddressPrefix::Bytes{0x20, 0x01, 0x0d, 0xb8, 0, 0,
-                                              static_cast<std::uint8_t>(number >> 8),
-                                              static_cast<std::uint8_t>(number)});
+                                              static_cast<std::uint8_t>(client >> 8),
+                                              static_cast<std::uint8_t>(client)});
   }
 
   void guess(int client) {

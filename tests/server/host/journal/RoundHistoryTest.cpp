@@ -19,22 +19,19 @@ bool play(RoundHistory& round, std::uint32_t tick, milliseconds time = milliseco
   return due;
 }
 
-TEST(RoundHistory, CheckpointsAreDueAtTick30ThenEvery300) {
+/// Plays this many ticks of length `time`. Returns those in which a copy was due.
+std::vector<std::uint32_t> dueIn(std::uint32_t ticks, milliseconds time) {
   RoundHistory round;
   std::vector<std::uint32_t> due;
-  for (std::uint32_t tick = 1; tick <= 700; ++tick) {
-    if (play(round, tick)) due.push_back(tick);
+  for (std::uint32_t tick = 1; tick <= ticks; ++tick) {
+    if (play(round, tick, time)) due.push_back(tick);
   }
-  EXPECT_EQ(due, (std::vector<std::uint32_t>{30, 330, 630}));
+  return due;
 }
 
 TEST(RoundHistory, SlowTicksShortenTheCheckpointInterval) {
-  RoundHistory round;
-  std::vector<std::uint32_t> due;
-  for (std::uint32_t tick = 1; tick <= 300; ++tick) {
-    if (play(round, tick, milliseconds(1))) due.push_back(tick);
-  }
-  EXPECT_EQ(due, (std::vector<std::uint32_t>{30, 150, 270}));
+  EXPECT_EQ(dueIn(700, milliseconds(0)), (std::vector<std::uint32_t>{30, 330, 630}));
+  EXPECT_EQ(dueIn(300, milliseconds(1)), (std::vector<std::uint32_t>{30, 150, 270}));
 }
 
 TEST(RoundHistory, TakingACheckpointKeepsEarlierAndDropsLaterOnes) {

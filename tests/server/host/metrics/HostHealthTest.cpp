@@ -14,18 +14,20 @@ using namespace std::chrono_literals;
 
 const HostHealth::Clock::time_point kStart{1h};
 
-TEST(HostHealth, IsHealthyButNotReadyBeforeListening) {
-  const StageClock stages;
-  const HostHealth pulse(stages);
+class HostHealthTest : public testing::Test {
+ protected:
+  StageClock stages;
+  HostHealth pulse{stages};
+};
+
+TEST_F(HostHealthTest, IsHealthyButNotReadyBeforeListening) {
   EXPECT_TRUE(pulse.health(kStart).is_good);
   EXPECT_FALSE(pulse.readiness(kStart).is_good);
   EXPECT_EQ(pulse.readiness(kStart).sentence, "starting");
 }
 
-TEST(HostHealth, NoTickForOverOneSecondIsAHang) {
-  StageClock stages;
+TEST_F(HostHealthTest, NoTickForOverOneSecondIsAHang) {
   stages.start();
-  HostHealth pulse(stages);
   pulse.begin(33ms, kStart);
   stages.beginTick(17, kStart + 500ms, kStart + 500ms);
   EXPECT_TRUE(pulse.health(kStart + 1500ms).is_good);
@@ -39,27 +41,21 @@ TEST(HostHealth, NoTickForOverOneSecondIsAHang) {
   EXPECT_TRUE(pulse.health(kStart + 2s).is_good);
 }
 
-TEST(HostHealth, HangBeforeFirstTickIsTimedFromTheStart) {
-  const StageClock stages;
-  HostHealth pulse(stages);
+TEST_F(HostHealthTest, HangBeforeFirstTickIsTimedFromTheStart) {
   pulse.begin(33ms, kStart);
   EXPECT_TRUE(pulse.health(kStart + 1s).is_good);
   EXPECT_FALSE(pulse.health(kStart + 1001ms).is_good);
 }
 
-TEST(HostHealth, LongTicksHangAfterTenTickLengths) {
-  StageClock stages;
+TEST_F(HostHealthTest, LongTicksHangAfterTenTickLengths) {
   stages.start();
-  HostHealth pulse(stages);
   pulse.begin(1s, kStart);
   stages.beginTick(1, kStart, kStart);
   EXPECT_TRUE(pulse.health(kStart + 10s).is_good);
   EXPECT_FALSE(pulse.health(kStart + 10'001ms).is_good);
 }
 
-TEST(HostHealth, IsNotReadyWhileFull) {
-  const StageClock stages;
-  HostHealth pulse(stages);
+TEST_F(HostHealthTest, IsNotReadyWhileFull) {
   pulse.begin(33ms, kStart);
   pulse.setFull(true);
   EXPECT_TRUE(pulse.health(kStart).is_good);
@@ -68,9 +64,7 @@ TEST(HostHealth, IsNotReadyWhileFull) {
   EXPECT_TRUE(pulse.readiness(kStart).is_good);
 }
 
-TEST(HostHealth, DrainingIsNotReadyAndHangsOnlyWhileTicking) {
-  const StageClock stages;
-  HostHealth pulse(stages);
+TEST_F(HostHealthTest, DrainingIsNotReadyAndHangsOnlyWhileTicking) {
   pulse.begin(33ms, kStart);
   pulse.beginDrain(true);
   EXPECT_FALSE(pulse.readiness(kStart).is_good);

@@ -13,6 +13,7 @@
 #include "shared/net/datagram/SealedLink.h"
 #include "shared/net/datagram/UdpSocket.h"
 #include "shared/net/stream/TcpConnector.h"
+#include "tests/shared/net/Recorder.h"
 
 namespace naiad {
 namespace {
@@ -58,11 +59,9 @@ class NetworkThreadTest : public WithIdentity {
     home.poll();
     network->serve(Clock::now() + 1s);
   }
-  struct Far {
+  struct Far : test::Recorder {
     std::unique_ptr<TcpConnector> connector;
     std::unique_ptr<ReliableChannel> channel;
-    std::vector<std::string> heard;
-    bool closed = false;
     bool failed = false;
   };
   /// Connects a client. Unless `deaf`, the tick thread gets its channel.
@@ -71,15 +70,13 @@ class NetworkThreadTest : public WithIdentity {
     auto far = std::make_unique<Far>();
     far->connector = std::make_unique<TcpConnector>(client, TcpOptions{.receive_limit = kMaxServerFrame},
                                                     tls ? TlsContext::forClient() : nullptr);
-    far->connector->connect(
-        "127.0.0.1", network->port(), 20s,
-        [p = far.get()](std::unique_ptr<ReliableChannel> channel, const std::string&) {
-          p->failed = channel == nullptr;
-          if (p->failed) return;
-          p->channel = std::move(channel);
-          p->channel->start({[p](std::string_view frame) { p->heard.emplace_back(frame); },
-                             [p](CloseReason) { p->closed = true; }});
-        });
+    far->connector->connect("127.0.0.1", network->port(), 20s,
+                            [p = far.get()](std::unique_ptr<ReliableChannel> channel, const std::string&) {
+                              p->failed = channel == nullptr;
+                              if (p->failed) return;
+                              p->channel = std::move(channel);
+                              p->channel->start(p->callbacks());
+                            });
     const auto is_done = [&] { return far->channel != nullptr && (deaf || near.size() > before); };
     EXPECT_TRUE(runUntil([&] { return far->failed || is_done(); }, deaf));
     return far;
@@ -106,15 +103,15 @@ TEST_F(NetworkThreadTest, FramesCrossBothWaysInOrder) {
   for (int i = 0; i < 100; ++i) near[0]->send(std::to_string(i));
   EXPECT_GE(near[0]->unsentBytes(), 290u) << "on the way";
   network->flush();
-  ASSERT_TRUE(runUntil([&] { return far->heard.size() == 100; }));
-  for (int i = 0; i < 100; ++i) EXPECT_EQ(far->heard[static_cast<std::size_t>(i)], std::to_string(i));
+  ASSERT_TRUE(runUntil([&] { return far->frames.size() == 100; }));
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(far->frames[static_cast<std::size_t>(i)], std::to_string(i));
   EXPECT_TRUE(runUntil([&] { return near[0]->unsentBytes() == 0; }));
 
   near[0]->send("bye");
   near[0]->close();
   network->flush();
   ASSERT_TRUE(runUntil([&] { return far->closed && !closed.empty(); }));
-  EXPECT_EQ(far->heard.back(), "bye");
+  EXPECT_EQ(far->frames.back(), "bye");
   EXPECT_EQ(closed, std::vector<CloseReason>{CloseReason::kLocal});
 }
 
@@ -142,9 +139,7 @@ TEST_F(NetworkThreadTest, UnsentBytesStayWhileAPeerDoesNotRead) {
 }
 
 TEST_F(NetworkThreadTest, InputOverflowClosesOnlyItsStreamAndIsCounted) {
-  NetworkThread::Limits limits;
-  limits.stream_in = 10'000;
-  listen(limits);
+  listen({.stream_in = 10'000});
   const auto loud = connect();
   const auto quiet = connect();
   for (int i = 0; i < 500; ++i) loud->channel->send(std::string(100, 'x'));
@@ -169,9 +164,7 @@ TEST_F(NetworkThreadTest, OutputOverflowClosesTheStreamAndIsCounted) {
 }
 
 TEST_F(NetworkThreadTest, ConnectionsThatAreNotServedAreBounded) {
-  NetworkThread::Limits limits;
-  limits.unaccepted = 3;
-  listen(limits);
+  listen({.unaccepted = 3});
   std::vector<std::unique_ptr<Far>> far;
   for (int i = 0; i < 5; ++i) far.push_back(connect(true));
   ASSERT_TRUE(runUntil([&] { return far[3]->closed && far[4]->closed; }, true));
@@ -269,9 +262,7 @@ TEST_F(NetworkThreadTest, AStreamThatIsGoneGivesNoKeys) {
 }
 
 TEST_F(NetworkThreadTest, FullMailboxDropsAndCountsDatagrams) {
-  NetworkThread::Limits limits;
-  limits.mailbox = 20'000;
-  listen(limits, true);
+  listen({.mailbox = 20'000}, true);
   const auto far = connect();
   datagrams = network->openDatagrams(*near[0], AeadId::kAes128Gcm);
   int came = 0;

@@ -44,7 +44,6 @@ TEST(TickClock, LengthIsSetInMicrosecondsOrDefaultsAtZero) {
   EXPECT_EQ(TickLength::fromMicros(0).times(30), 1s);
 }
 
-using namespace std::chrono_literals;
 using Step = HangDetector::Step;
 
 class HangDetectorTest : public testing::Test {

@@ -23,7 +23,7 @@ class SessionReturn : public testing::Test {
 
   SessionReturn() : session(make(first)) {
     session->setGrace(60s);
-    greet(first);
+    first.greet(test::helloOf("Ann"));
   }
 
   std::unique_ptr<Session> make(Wire& line) {
@@ -51,14 +51,17 @@ class SessionReturn : public testing::Test {
       session->resumeOn(other, welcome, hello.last_frame());
     }
   }
-  static void greet(const Wire& line, const std::string& token = "", bool new_process = false,
-                    std::uint32_t received = 0, bool second_stream = false) {
+  /// Makes a session whose client wants to resume that of the player. `received`: its newest reliable frame.
+  std::unique_ptr<Session> resume(Wire& line, bool new_process = false, std::uint32_t received = 0,
+                                  bool second_stream = false) {
+    auto made = make(line);
     wire::Hello hello = test::helloOf("Ann");
     hello.set_second_stream(second_stream);
-    hello.set_resume_token(token);
+    hello.set_resume_token("token");
     hello.set_new_process(new_process);
     hello.set_last_frame(received);
     line.greet(hello);
+    return made;
   }
   void sendChat(const std::string& text) {
     wire::ServerMessage message;
@@ -98,8 +101,7 @@ TEST_F(SessionReturn, UnacknowledgedMessagesAreSentAgainOnTheNextStream) {
   first.ping(1);
   breakStream(first);
   sendChat("d");
-  const auto other = make(second);
-  greet(second, "token", false, 2);
+  const auto other = resume(second, false, 2);
   EXPECT_EQ(chatOf(second), (std::vector<std::string>{"c", "d"}))
       << "b had arrived; its acknowledgement came with the hello";
   EXPECT_EQ(second.sent[0].payload_case(), wire::ServerMessage::kWelcome) << "the answer first";
@@ -116,8 +118,7 @@ TEST_F(SessionReturn, BestEffortMessagesAreSentNowOrDropped) {
   EXPECT_FALSE(session->sendBestEffort(sound));
   breakStream(first);
   EXPECT_FALSE(session->sendBestEffort(sound));
-  const auto other = make(second);
-  greet(second, "token");
+  const auto other = resume(second);
   EXPECT_EQ(second.sent.size(), 1u) << "the welcome";
 }
 
@@ -125,8 +126,7 @@ TEST_F(SessionReturn, DuplicateFramesAreIgnored) {
   first.say("one", 1);
   first.say("two", 2);
   breakStream(first);
-  const auto other = make(second);
-  greet(second, "token");
+  const auto other = resume(second);
   EXPECT_EQ(second.sent[0].welcome().last_frame(), 2u);
   second.say("two", 2);
   second.say("three", 3);
@@ -140,8 +140,7 @@ TEST_F(SessionReturn, ChatQueuedWhileDisconnectedMayArriveAtOnce) {
   breakStream(first);
   now += 20s;
   session->checkDeadlines(now);
-  const auto other = make(second);
-  greet(second, "token");
+  const auto other = resume(second);
   for (std::uint32_t i = 1; i <= 20; ++i) second.say("line " + std::to_string(i), i);
   EXPECT_EQ(chat.size(), 20u);
   EXPECT_EQ(counters.chat_dropped, 0u);
@@ -157,9 +156,8 @@ TEST_F(SessionReturn, OnlyTimeRefillsTheChatAllowance) {
   for (int i = 0; i < 25; ++i, now += 200ms) {  // reconnects five times a second, for 5 s
     for (int k = 0; k < 40; ++k) p_line->say("line", ++number);
     breakStream(*p_line);
-    others.push_back(make(lines.emplace_back()));
-    p_line = &lines.back();
-    greet(*p_line, "token");
+    p_line = &lines.emplace_back();
+    others.push_back(resume(*p_line));
     session->checkDeadlines(now);
   }
   EXPECT_LE(chat.size(), 3u + 5 * 3);
@@ -221,8 +219,7 @@ TEST_F(SessionReturn, ResumeInAnotherProcessCountsAsAReset) {
   ClientUpdate update;
   update.needs_reset = true;
   now += 10s;
-  const auto other = make(second);
-  greet(second, "token", true);
+  const auto other = resume(second, true);
   second.update(update);
   EXPECT_EQ(counters.resets, 0u);
   EXPECT_EQ(counters.resets_dropped, 1u);
@@ -230,8 +227,7 @@ TEST_F(SessionReturn, ResumeInAnotherProcessCountsAsAReset) {
   second.update(update);
   EXPECT_EQ(counters.resets, 1u);
   Wire& third = lines.emplace_back();
-  const auto again = make(third);
-  greet(third, "token");  // the same process on another stream
+  const auto again = resume(third);  // the same process on another stream
   third.update(update);
   EXPECT_EQ(counters.resets, 1u) << "two seconds, whatever becomes of the stream";
 }
@@ -264,8 +260,7 @@ TEST_F(SessionReturn, ResumeInAnotherProcessTellsWhereToContinue) {
   sendChat("old");
   first.say("mine", 5);
   breakStream(first);
-  const auto other = make(second);
-  greet(second, "token", true);
+  const auto other = resume(second, true);
   EXPECT_EQ(other->state(), Session::State::kGone);
   ASSERT_EQ(second.sent.size(), 1u) << "no old chat";
   const wire::Welcome& welcome = second.sent[0].welcome();
@@ -285,8 +280,7 @@ TEST_F(SessionReturn, ResumeInAnotherProcessTellsWhereToContinue) {
 }
 
 TEST_F(SessionReturn, ReplacedProcessGetsAGoodbye) {
-  const auto other = make(second);
-  greet(second, "token", true);
+  const auto other = resume(second, true);
   EXPECT_EQ(first.sent.back().goodbye().message(), "This session was resumed in another client.");
   EXPECT_TRUE(first.closed);
   EXPECT_FALSE(first.destroyed) << "the message is on its way";
@@ -323,8 +317,7 @@ TEST_F(SessionReturn, DisconnectReleasesHeldKeysAfterQueuedInputs) {
 
 TEST_F(SessionReturn, ResumeInNewProcessReleasesOldKeysFirst) {
   first.key(1, df::Keyboard::A, df::KEY_PRESSED);
-  const auto other = make(second);
-  greet(second, "token", true);
+  const auto other = resume(second, true);
   second.key(2, df::Keyboard::A, df::KEY_PRESSED);
   const std::string a = std::to_string(int{df::Keyboard::A});
   EXPECT_EQ(taken(), (std::vector<std::string>{a + " down", a + " up", a + " down"}));
@@ -332,8 +325,7 @@ TEST_F(SessionReturn, ResumeInNewProcessReleasesOldKeysFirst) {
 
 TEST_F(SessionReturn, ResumeOnANewStreamKeepsHeldKeys) {
   first.key(1, df::Keyboard::A, df::KEY_PRESSED);
-  const auto other = make(second);
-  greet(second, "token");
+  const auto other = resume(second);
   EXPECT_EQ(taken().size(), 1u);
   for (int i = 0; i < 50; ++i, now += 100ms) session->checkDeadlines(now);
   EXPECT_TRUE(taken().empty());
@@ -341,7 +333,6 @@ TEST_F(SessionReturn, ResumeOnANewStreamKeepsHeldKeys) {
 
 class SessionWithTwoStreams : public SessionReturn {
  protected:
-  SessionWithTwoStreams() : other(make(second)) { greet(second, "token", false, 0, true); }
   void tick(bool quiet = false) {
     world.tick(quiet);
     session->sendTick(world.publisher, world.player());
@@ -370,7 +361,7 @@ class SessionWithTwoStreams : public SessionReturn {
     return all;
   }
 
-  std::unique_ptr<Session> other;
+  std::unique_ptr<Session> other = resume(second, false, 0, true);
   AckWindow acks;
   test::PublishedWorld world{{.view_width = 100, .view_height = 40, .objects = 600}, 5};
 };
@@ -497,8 +488,7 @@ TEST_F(SessionWithTwoStreams, TheSecondEndsWithTheFirst) {
 
 TEST_F(SessionWithTwoStreams, NewSecondStreamReplacesTheOldOne) {
   Wire& third = lines.emplace_back();
-  const auto newer = make(third);
-  greet(third, "token", false, 0, true);
+  const auto newer = resume(third, false, 0, true);
   EXPECT_TRUE(second.destroyed);
   settle();
   tick();

@@ -513,16 +513,14 @@ TEST(SshDoor, ReturnsTheSshCommand) {
 }
 
 TEST(MetricsAddress, IsANumericAddressAndAPort) {
-  const auto four = MetricsAddress::parse("127.0.0.1:9100");
-  ASSERT_TRUE(four);
-  EXPECT_EQ(four->address, "127.0.0.1");
-  EXPECT_EQ(four->port, 9100);
-  EXPECT_EQ(four->hostText(), "127.0.0.1");
-  const auto six = MetricsAddress::parse("[::1]:0");
-  ASSERT_TRUE(six);
-  EXPECT_EQ(six->address, "::1");
-  EXPECT_EQ(six->port, 0);
-  EXPECT_EQ(six->hostText(), "[::1]");
+  for (const auto& [text, address, port, host] :
+       {std::tuple{"127.0.0.1:9100", "127.0.0.1", 9100, "127.0.0.1"}, {"[::1]:0", "::1", 0, "[::1]"}}) {
+    const auto parsed = MetricsAddress::parse(text);
+    ASSERT_TRUE(parsed) << text;
+    EXPECT_EQ(parsed->address, address);
+    EXPECT_EQ(parsed->port, port);
+    EXPECT_EQ(parsed->hostText(), host);
+  }
 }
 
 TEST(MetricsAddress, RejectsInvalidAddresses) {
@@ -534,20 +532,19 @@ TEST(MetricsAddress, RejectsInvalidAddresses) {
 }
 
 TEST(MetricsAddress, TellsPrivateAddressesFromPublicOnes) {
+  const auto isPrivate = [](const char* text) {
+    const auto address = MetricsAddress::parse(text);
+    EXPECT_TRUE(address) << text;
+    return address && address->is_private;
+  };
   for (const char* text :
        {"127.0.0.1:1", "127.255.0.9:1", "10.1.2.3:1", "172.16.0.1:1", "172.31.255.255:1", "192.168.7.7:1",
-        "169.254.0.1:1", "[::1]:1", "[fd00::1]:1", "[fe80::1]:1", "[::ffff:10.0.0.1]:1"}) {
-    const auto address = MetricsAddress::parse(text);
-    ASSERT_TRUE(address) << text;
-    EXPECT_TRUE(address->is_private) << text;
-  }
+        "169.254.0.1:1", "[::1]:1", "[fd00::1]:1", "[fe80::1]:1", "[::ffff:10.0.0.1]:1"})
+    EXPECT_TRUE(isPrivate(text)) << text;
   for (const char* text :
        {"0.0.0.0:1", "[::]:1", "8.8.8.8:1", "172.15.255.255:1", "172.32.0.1:1", "192.169.0.1:1", "11.0.0.1:1",
-        "128.0.0.1:1", "[2001:db8::1]:1", "[fec0::1]:1", "[::ffff:8.8.8.8]:1"}) {
-    const auto address = MetricsAddress::parse(text);
-    ASSERT_TRUE(address) << text;
-    EXPECT_FALSE(address->is_private) << text;
-  }
+        "128.0.0.1:1", "[2001:db8::1]:1", "[fec0::1]:1", "[::ffff:8.8.8.8]:1"})
+    EXPECT_FALSE(isPrivate(text)) << text;
 }
 
 TEST(MetricsHosts, AllowLocalhostNumericAddressesAndConfiguredNames) {

@@ -171,8 +171,16 @@ class DescriptorMessageTest : public testing::Test {
   }
   std::span<const int> first(std::size_t count) const { return std::span(files).first(count); }
   bool send(std::size_t count) { return sendDescriptors(ends[0], &kWord, sizeof kWord, first(count)); }
+  /// Receives kWord with at most as many descriptors as there is room for. Returns their number; −1 on
+  /// failure.
+  int receive(std::span<int> places, int flags = 0) {
+    word = 0;
+    return receiveDescriptors(ends[1], &word, sizeof word, places, flags);
+  }
 
   int ends[2] = {-1, -1};
+  std::uint32_t word = 0;
+  std::array<int, kMaxPassed> room{};
   std::array<int, kMaxPassed> files{};
   std::size_t open_before = 0;
 };
@@ -180,9 +188,7 @@ class DescriptorMessageTest : public testing::Test {
 TEST_F(DescriptorMessageTest, DescriptorsArriveInOrderWithTheBytes) {
   for (const std::size_t count : {std::size_t{1}, std::size_t{2}, std::size_t{5}, kMaxPassed}) {
     ASSERT_TRUE(send(count)) << count;
-    std::array<int, kMaxPassed> room{};
-    std::uint32_t word = 0;
-    ASSERT_EQ(receiveDescriptors(ends[1], &word, sizeof word, room), static_cast<int>(count));
+    ASSERT_EQ(receive(room), static_cast<int>(count));
     EXPECT_EQ(word, kWord);
     for (std::size_t i = 0; i < count; ++i) {
       EXPECT_EQ(fileOf(room[i]), fileOf(files[i])) << i;
@@ -197,15 +203,12 @@ TEST_F(DescriptorMessageTest, DescriptorsArriveInOrderWithTheBytes) {
 TEST_F(DescriptorMessageTest, ExcessDescriptorsAreClosed) {
   for (const std::size_t count : {std::size_t{2}, std::size_t{3}, kMaxPassed}) {
     ASSERT_TRUE(send(count));
-    int one = -1;
-    std::uint32_t word = 0;
-    EXPECT_EQ(receiveDescriptors(ends[1], &word, sizeof word, {&one, 1}), -1) << count;
+    EXPECT_EQ(receive(std::span(room).first(1)), -1) << count;
     EXPECT_EQ(openDescriptors(), open_before) << count;
   }
 }
 
 TEST_F(DescriptorMessageTest, DescriptorsOfAMessageOfWrongLengthAreClosed) {
-  std::array<int, kMaxPassed> room{};
   for (const std::size_t size : {sizeof kWord - 1, sizeof kWord + 1}) {
     ASSERT_TRUE(send(2));
     std::array<char, sizeof kWord + 1> bytes{};
@@ -216,18 +219,14 @@ TEST_F(DescriptorMessageTest, DescriptorsOfAMessageOfWrongLengthAreClosed) {
 
 TEST_F(DescriptorMessageTest, MessageWithoutDescriptorsIsReceived) {
   ASSERT_EQ(::send(ends[0], &kWord, sizeof kWord, 0), static_cast<ssize_t>(sizeof kWord));
-  std::array<int, kMaxPassed> room{};
-  std::uint32_t word = 0;
-  EXPECT_EQ(receiveDescriptors(ends[1], &word, sizeof word, room), 0);
+  EXPECT_EQ(receive(room), 0);
   EXPECT_EQ(word, kWord);
 }
 
 TEST_F(DescriptorMessageTest, EmptyOrClosedSocketFailsWithoutASignal) {
-  std::array<int, kMaxPassed> room{};
-  std::uint32_t word = 0;
-  EXPECT_EQ(receiveDescriptors(ends[1], &word, sizeof word, room, MSG_DONTWAIT), -1);
+  EXPECT_EQ(receive(room, MSG_DONTWAIT), -1);
   close(std::exchange(ends[0], -1));
-  EXPECT_EQ(receiveDescriptors(ends[1], &word, sizeof word, room), -1);
+  EXPECT_EQ(receive(room), -1);
   EXPECT_FALSE(sendDescriptors(ends[1], &kWord, sizeof kWord, first(1))) << "and no signal ends this process";
 }
 

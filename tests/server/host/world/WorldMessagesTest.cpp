@@ -133,14 +133,30 @@ void expectSame(const df::WorldView& a, const df::WorldView& b) {
   EXPECT_EQ(a.shake_y, b.shake_y);
 }
 
-TEST(WorldMessages, ViewsArriveUnchanged) {
+class WorldMessages : public testing::Test {
+ protected:
+  /// Sends an answer from the world to the host; nullopt if it is refused.
+  std::optional<WorldAnswer> send(const df::WorldView& sent,
+                                  const WorldAnswer& answer = {false, {}, true, {}}) {
+    return readAnswer(fieldsOf(frameOf(sent, writer, answer)), reader, view);
+  }
+
+  /// Call after a refused view.
+  void restart() {
+    reader = ViewReader();
+    view = {};
+  }
+
   ViewWriter writer;
   ViewReader reader;
+  df::WorldView view;  ///< read by the host
+};
+
+TEST_F(WorldMessages, ViewsArriveUnchanged) {
   const df::WorldView sent = fullView();
   std::size_t first = 0;
   for (int i = 0; i < 3; ++i) {
     const std::string frame = frameOf(sent, writer);
-    df::WorldView view;
     const auto answer = readAnswer(fieldsOf(frame), reader, view);
     ASSERT_TRUE(answer && answer->has_view);
     expectSame(view, sent);
@@ -151,26 +167,21 @@ TEST(WorldMessages, ViewsArriveUnchanged) {
   }
 }
 
-TEST(WorldMessages, ViewNumbersRestartAtTheLimit) {
-  ViewWriter writer;
-  ViewReader reader;
+TEST_F(WorldMessages, ViewNumbersRestartAtTheLimit) {
   df::WorldView sent = fullView();
-  df::WorldView view;
   for (std::uint32_t i = 0; i < 3 * kMaxViewNumbers; ++i) {
     sent.looks[1].p_look = lookOf(U'a' + static_cast<char32_t>(i % 20), Selector::fixed(i % 2));
-    ASSERT_TRUE(readAnswer(fieldsOf(frameOf(sent, writer)), reader, view)) << i;
+    ASSERT_TRUE(send(sent)) << i;
     ASSERT_EQ(*view.looks[0].p_look, *sent.looks[0].p_look) << i;
     ASSERT_EQ(*view.looks[1].p_look, *sent.looks[1].p_look) << i;
   }
 }
 
-TEST(WorldMessages, TicksOfALaterWorldAreOffset) {
+TEST_F(WorldMessages, TicksOfALaterWorldAreOffset) {
   constexpr std::uint32_t kLater = 1000;
-  ViewWriter writer;
-  ViewReader reader(kLater);
+  reader = ViewReader(kLater);
   const df::WorldView sent = fullView();
-  df::WorldView view;
-  ASSERT_TRUE(readAnswer(fieldsOf(frameOf(sent, writer)), reader, view));
+  ASSERT_TRUE(send(sent));
   EXPECT_EQ(view.tick, sent.tick + kLater);
   for (std::uint32_t tick = sent.tick; tick < sent.tick + 200; ++tick) {
     for (std::size_t i = 0; i < 2; ++i) {
@@ -180,7 +191,7 @@ TEST(WorldMessages, TicksOfALaterWorldAreOffset) {
   }
 }
 
-TEST(WorldMessages, ReadyMessageArrivesCompleteAndInRange) {
+TEST_F(WorldMessages, ReadyMessageArrivesCompleteAndInRange) {
   WorldReady sent{100, 30, 50, true, {"left and right", std::string(kMaxHelpLength + 5, 'x')}};
   sent.runs_empty = true;
   std::string frame;
@@ -208,7 +219,7 @@ TEST(WorldMessages, ReadyMessageArrivesCompleteAndInRange) {
   EXPECT_EQ(readReady(fieldsOf(frame)).value_or(WorldReady()).help.size(), kMaxHelpLines);
 }
 
-TEST(WorldMessages, OnlyTheIdOfAnotherBuildIsRead) {
+TEST_F(WorldMessages, OnlyTheIdOfAnotherBuildIsRead) {
   std::string frame;
   writeReady({}, frame);
   std::string fields(fieldsOf(frame));
@@ -224,17 +235,14 @@ TEST(WorldMessages, OnlyTheIdOfAnotherBuildIsRead) {
   EXPECT_FALSE(readBuild(fields)) << "what is no id must not come to the log";
 }
 
-TEST(WorldMessages, AnswersArriveUnchanged) {
-  ViewWriter writer;
-  ViewReader reader;
+TEST_F(WorldMessages, AnswersArriveUnchanged) {
   WorldAnswer sent{true, {3, 70'000}, false, {}};
   sent.pictures.push_back({5, df::Canvas(3, 2)});
   sent.pictures[0].canvas.put(1, 1, {U'ü', df::RED});
   sent.scores = {{"arcade", {"ann", -7}, 70'000, 3},
                  {"other", {"bob", df::HighScoreLimits::kMaxPoints}, 70'000, 4}};
   sent.sent = {{3, "arcade"}};
-  df::WorldView view;
-  const auto answer = readAnswer(fieldsOf(frameOf({}, writer, sent)), reader, view);
+  const auto answer = send({}, sent);
   ASSERT_TRUE(answer);
   EXPECT_TRUE(answer->game_over);
   EXPECT_FALSE(answer->has_view);
@@ -293,7 +301,7 @@ std::optional<WorldTurn> readTurn(std::string_view fields, bool* p_copied = null
   return turn;
 }
 
-TEST(WorldMessages, TurnsArriveUnchanged) {
+TEST_F(WorldMessages, TurnsArriveUnchanged) {
   const WorldTurn sent = fullTurn();
   bool copied = false;
   const std::string message = messageOf(sent, true);
@@ -314,49 +322,44 @@ TEST(WorldMessages, TurnsArriveUnchanged) {
   }
 }
 
-TEST(WorldMessages, AMessageHasOneTurnAndNothingElse) {
+TEST_F(WorldMessages, AMessageHasOneTurnAndNothingElse) {
   std::string records;
-  TurnRecordWriter writer;
-  writer.write(TickResult(), records);
+  TurnRecordWriter turn_writer;
+  turn_writer.write(TickResult(), records);
   std::string message;
   appendTurnMessage(records, false, message);
   EXPECT_FALSE(readTurn(fieldsOf(message))) << "no turn";
   records.clear();
-  writer.write(WorldTurn(), records);
-  writer.write(WorldTurn(), records);
+  turn_writer.write(WorldTurn(), records);
+  turn_writer.write(WorldTurn(), records);
   message.clear();
   appendTurnMessage(records, false, message);
   EXPECT_FALSE(readTurn(fieldsOf(message))) << "two of them";
 }
 
-TEST(WorldMessages, EveryTruncationIsRefused) {
-  ViewWriter writer;
+TEST_F(WorldMessages, EveryTruncationIsRefused) {
   const std::string frame = frameOf(fullView(), writer);
   const std::string turn = messageOf(fullTurn());
   for (std::size_t size = 0; size < frame.size() - kWorldFrameHead; ++size) {
-    ViewReader reader;
-    df::WorldView view;
+    restart();
     EXPECT_FALSE(readAnswer(fieldsOf(frame).substr(0, size), reader, view)) << size;
   }
   for (std::size_t size = 0; size < turn.size() - kWorldFrameHead; ++size) {
     EXPECT_FALSE(readTurn(fieldsOf(turn).substr(0, size))) << size;
   }
-  ViewReader reader;
-  df::WorldView view;
+  restart();
   EXPECT_FALSE(readAnswer(std::string(fieldsOf(frame)) + '\0', reader, view)) << "something is left over";
   EXPECT_FALSE(readTurn(std::string(fieldsOf(turn)) + '\0'));
 }
 
 // Accepted messages are legal: they can be written again and published.
-TEST(WorldMessages, EverySingleBitFlipIsRefusedOrLegal) {
-  ViewWriter writer;
+TEST_F(WorldMessages, EverySingleBitFlipIsRefusedOrLegal) {
   const std::string frame = frameOf(fullView(), writer);
   int refused = 0;
   for (std::size_t bit = 8 * kWorldFrameHead; bit < 8 * frame.size(); ++bit) {
     std::string bad = frame;
     bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ (1 << bit % 8));
-    ViewReader reader;
-    df::WorldView view;
+    restart();
     if (!readAnswer(fieldsOf(bad), reader, view)) {
       ++refused;
       continue;
@@ -373,11 +376,8 @@ TEST(WorldMessages, EverySingleBitFlipIsRefusedOrLegal) {
   EXPECT_GT(refused, 100);
 }
 
-TEST(WorldMessages, MoreScoresThanATickMayHaveAreRefused) {
-  const auto isRead = [](std::size_t count) {
-    ViewWriter writer;
-    ViewReader reader;
-    df::WorldView view;
+TEST_F(WorldMessages, MoreScoresThanATickMayHaveAreRefused) {
+  const auto isRead = [this](std::size_t count) {
     const df::AddedScore score{"t", {"n", 0}, 0, 0};
     WorldAnswer sent;
     sent.scores.assign(df::HighScoreLimits::kMaxAddedInTick, score);
@@ -392,16 +392,13 @@ TEST(WorldMessages, MoreScoresThanATickMayHaveAreRefused) {
   EXPECT_FALSE(isRead(17));
 }
 
-TEST(WorldMessages, WriterClampsOutOfRangeValues) {
+TEST_F(WorldMessages, WriterClampsOutOfRangeValues) {
   df::WorldView sent = fullView();
   sent.players[0].view_corner = {INT64_MAX, INT64_MIN};
   sent.changed[0].velocity = {INT64_MIN, INT64_MAX};
   sent.view_width = 100'000;
   sent.sounds[0].label = std::string(100'000, 'x');
-  ViewWriter writer;
-  ViewReader reader;
-  df::WorldView view;
-  ASSERT_TRUE(readAnswer(fieldsOf(frameOf(sent, writer)), reader, view));
+  ASSERT_TRUE(send(sent));
   EXPECT_EQ(view.players[0].view_corner.y, -view.players[0].view_corner.x);
   EXPECT_GT(view.players[0].view_corner.x, 0);
 }
@@ -419,7 +416,7 @@ long mostMemory() {
   return facts.ru_maxrss / 1024;
 }
 
-TEST(WorldMessages, OversizedListIsRejectedBeforeAllocation) {
+TEST_F(WorldMessages, OversizedListIsRejectedBeforeAllocation) {
   constexpr long kMuch = 100;  // in MiB; 16 Mi strings would take 512 MiB
   WorldReady ready;
   std::string frame;
@@ -431,23 +428,19 @@ TEST(WorldMessages, OversizedListIsRejectedBeforeAllocation) {
   EXPECT_FALSE(readReady(fields + countOf(lines.size()) + lines));
   EXPECT_LT(mostMemory() - before, kMuch);
 
-  df::WorldView view;
-  ViewWriter writer;
   fields = fieldsOf(frameOf(view, writer));
   view.notes = {""};
   const std::string with_note(fieldsOf(frameOf(view, writer)));
   const auto notes = std::mismatch(fields.begin(), fields.end(), with_note.begin()).first - fields.begin();
   fields.replace(static_cast<std::size_t>(notes), 1, countOf(lines.size()) + lines);
-  ViewReader reader;
   const long then = mostMemory();
   EXPECT_FALSE(readAnswer(fields, reader, view));
   EXPECT_LT(mostMemory() - then, kMuch);
 }
 
-TEST(WorldMessages, AFrameThatIsTooLongIsNotWritten) {
+TEST_F(WorldMessages, AFrameThatIsTooLongIsNotWritten) {
   df::WorldView sent = fullView();
   sent.commands.resize(kMaxWorldFrame / 16, {at(1, 1), U'x', df::RED});
-  ViewWriter writer;
   std::string frame;
   EXPECT_FALSE(writeAnswer({false, {}, true, {}}, &sent, writer, frame));
 }
