@@ -36,4 +36,9 @@ class TempFolder {
   std::filesystem::path m_path;
 };
 
+/// Returns the permission bits of an existing file or folder, as of chmod.
+inline unsigned modeOf(const std::filesystem::path& path) {
+  return static_cast<unsigned>(std::filesystem::status(path).permissions()) & 0777;
+}
+
 }  // namespace naiad::test

@@ -3,6 +3,7 @@
 #include "client/ctl/CtlCommandLine.h"
 #include "shared/admin/AdminCommands.h"
 #include "shared/admin/AdminRequest.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -25,12 +26,10 @@ TEST(CtlCommandLine, JsonMayBeTheLastWord) {
 }
 
 TEST(CtlCommandLine, UnknownOptionErrorSuggestsTheNearest) {
-  try {
-    readCtlCommandLine({"--jsn", "who"});
-    FAIL();
-  } catch (const AdminUsageError& error) {
-    EXPECT_EQ(std::string(error.what()), "There is no option --jsn; did you mean --json?");
-  }
+  EXPECT_EQ(test::errorOf<AdminUsageError>([] {
+              readCtlCommandLine({"--jsn", "who"});
+            }),
+            "There is no option --jsn; did you mean --json?");
   EXPECT_THROW(readCtlCommandLine({"--control"}), AdminUsageError);
 }
 

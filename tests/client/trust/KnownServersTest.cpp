@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -48,9 +47,7 @@ struct KnownServersTest : testing::Test {
 TEST_F(KnownServersTest, FirstUsePinsKeyPrivatelyAndTrustsItLater) {
   EXPECT_EQ(admit(selfSigned('a')), Trust::kFirstUse);
   EXPECT_EQ(content(), "game.test:9876 " + std::string(64, 'a') + "\n");
-  struct stat facts {};
-  ASSERT_EQ(stat(path.c_str(), &facts), 0);
-  EXPECT_EQ(facts.st_mode & 0777U, 0600U);
+  EXPECT_EQ(test::modeOf(path), 0600U);
   EXPECT_EQ(admit(selfSigned('a')), Trust::kPinned);
   EXPECT_TRUE(servers.problems().empty());
 }

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -59,11 +58,8 @@ TEST_F(SessionFileTest, NextClientFindsTheFileOfAKilledClient) {
   first->save(session("token"), now);
   first->save(session(another), now);
   EXPECT_EQ(files().size(), 1u) << "a new token takes the place of the old one";
-  struct stat facts {};
-  ASSERT_EQ(stat(files()[0].c_str(), &facts), 0);
-  EXPECT_EQ(facts.st_mode & 0777, 0600u);
-  ASSERT_EQ(stat(directory.c_str(), &facts), 0);
-  EXPECT_EQ(facts.st_mode & 0777, 0700u);
+  EXPECT_EQ(test::modeOf(files()[0]), 0600u);
+  EXPECT_EQ(test::modeOf(directory), 0700u);
   EXPECT_EQ(open()->tokenFor(keyOf('a')), "") << "not while it runs";
   first.reset();
   auto second = open();

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -62,15 +61,6 @@ class ControlSocketTest : public testing::Test {
       if (!waiting.empty()) return;
     }
   }
-  /// Leaves a socket like that of a killed server.
-  void leaveSocket(const std::string& name) const {
-    const int dead = ::socket(AF_UNIX, SOCK_STREAM, 0);
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    std::strcpy(address.sun_path, (folder / name).c_str());
-    ASSERT_EQ(::bind(dead, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-    ::close(dead);
-  }
   bool exists() const { return fs::exists(fs::symlink_status(options.path)); }
 
   const test::TempFolder folder;
@@ -98,11 +88,8 @@ TEST_F(ControlSocketTest, CommandIsAnsweredAndItsSenderIdentified) {
 TEST_F(ControlSocketTest, SocketHasMode0660AndIsRemovedOnClose) {
   options.path = folder / "deep" / "er" / "control.sock";
   auto control = open();
-  struct stat facts {};
-  ASSERT_EQ(::stat(options.path.c_str(), &facts), 0);
-  EXPECT_EQ(facts.st_mode & 0777, 0660u);
-  ASSERT_EQ(::stat(options.path.parent_path().c_str(), &facts), 0);
-  EXPECT_EQ(facts.st_mode & 0777, 0750u);
+  EXPECT_EQ(test::modeOf(options.path), 0660u);
+  EXPECT_EQ(test::modeOf(options.path.parent_path()), 0750u);
   control.reset();
   EXPECT_FALSE(exists());
   EXPECT_TRUE(fs::is_empty(options.path.parent_path()));
@@ -113,7 +100,7 @@ TEST_F(ControlSocketTest, OnlyAStaleSocketIsReplaced) {
   EXPECT_THROW(open(), ListenError);
   EXPECT_EQ(Talk(options.path).ask(kPing), R"({"ok":true,"text":"ping"})") << "the first one lives";
   control.reset();
-  leaveSocket("control.sock");
+  ASSERT_TRUE(test::leaveSocket(options.path));
   ASSERT_TRUE(exists());
   control = open();
   EXPECT_EQ(Talk(options.path).ask(kPing), R"({"ok":true,"text":"ping"})");
@@ -134,7 +121,7 @@ TEST_F(ControlSocketTest, OnlyStaleServerSocketsAreRemoved) {
   options.path = folder / "control-1.sock";
   const auto control = open();
   std::ofstream(folder / "control-2.sock") << "no socket";
-  for (const char* name : {"control-3.sock", "other.sock"}) leaveSocket(name);
+  for (const char* name : {"control-3.sock", "other.sock"}) ASSERT_TRUE(test::leaveSocket(folder / name));
   removeStaleControls(folder);
   EXPECT_TRUE(exists());
   EXPECT_TRUE(fs::exists(folder / "control-2.sock"));

@@ -1,4 +1,4 @@
-// A client of a control socket, blocking, with timeouts.
+// A client of a control socket, blocking, with timeouts, and a socket without a server.
 #pragma once
 
 #include <poll.h>
@@ -14,13 +14,27 @@
 
 namespace naiad::test {
 
+inline sockaddr_un unixAddress(const std::filesystem::path& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::strncpy(address.sun_path, path.c_str(), sizeof address.sun_path - 1);
+  return address;
+}
+
+/// Leaves a socket like that of a killed server. False on failure.
+inline bool leaveSocket(const std::filesystem::path& path) {
+  const sockaddr_un address = unixAddress(path);
+  const int dead = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  const bool good = ::bind(dead, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  ::close(dead);
+  return good;
+}
+
 class Talk {
  public:
   explicit Talk(const std::filesystem::path& path)
       : m_socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    std::strncpy(address.sun_path, path.c_str(), sizeof address.sun_path - 1);
+    const sockaddr_un address = unixAddress(path);
     // A failure shows in the answer that does not come.
     (void)::connect(m_socket, reinterpret_cast<const sockaddr*>(&address), sizeof address);
   }

@@ -2,7 +2,6 @@
 // journal, not the game.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -220,11 +219,8 @@ TEST_F(JournalFileTest, ItsFileIsForThisUserAlone) {
   sink.write(encodeDfrHeader({}));
   sink.sync();
   sink.setFlags(kDfrStopped);
-  struct stat facts {};
-  ASSERT_EQ(stat(path.c_str(), &facts), 0);
-  EXPECT_EQ(facts.st_mode & 0777, 0600u);
-  ASSERT_EQ(stat(path.parent_path().c_str(), &facts), 0);
-  EXPECT_EQ(facts.st_mode & 0777, 0700u);
+  EXPECT_EQ(test::modeOf(path), 0600u);
+  EXPECT_EQ(test::modeOf(path.parent_path()), 0700u);
   const std::string bytes = test::contentOf(path);
   EXPECT_EQ(DfrReader(bytes).header().flags, kDfrStopped);
 }
@@ -441,9 +437,7 @@ TEST(TurnRingTest, SharedMemoryIsPrivateAndRemovedWithTheRing) {
     const TurnRing ring(4096, {0xAB, 0xCD}, true);
     if (!ring.isShared()) GTEST_SKIP() << "there is no /dev/shm";
     path = ring.path();
-    struct stat facts {};
-    ASSERT_EQ(stat(path.c_str(), &facts), 0);
-    EXPECT_EQ(facts.st_mode & 0777, 0600u);
+    EXPECT_EQ(test::modeOf(path), 0600u);
   }
   EXPECT_FALSE(fs::exists(path));
 }

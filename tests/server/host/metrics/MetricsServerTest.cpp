@@ -8,6 +8,7 @@
 
 #include "host/metrics/MetricsServer.h"
 #include "shared/values/SplitMix64.h"
+#include "tests/support/Text.h"
 #include "tests/support/net/HttpClient.h"
 
 namespace naiad::test {
@@ -126,14 +127,11 @@ TEST_F(MetricsServerTest, UnfinishedRequestHeadTimesOut) {
 
 TEST_F(MetricsServerTest, PortInUseErrorNamesThePort) {
   const std::string taken = "127.0.0.1:" + std::to_string(server.port());
-  try {
+  const auto listenThere = [&taken] {
     const MetricsServer other(*MetricsAddress::parse(taken), *MetricsHosts::parse(""),
                               [](std::string_view) { return MetricsServer::Response{}; });
-    FAIL() << "two servers have one port";
-  } catch (const MetricsError& error) {
-    EXPECT_NE(std::string(error.what()).find(std::to_string(server.port())), std::string::npos)
-        << error.what();
-  }
+  };
+  EXPECT_TRUE(has(errorOf<MetricsError>(listenThere), std::to_string(server.port())));
 }
 
 TEST_F(MetricsServerTest, CpuTimeIsMeasured) {

@@ -1,10 +1,8 @@
 // Files of a server's state that another user or a mistake put there. If a file is opened without the checks,
 // a pipe blocks this process until the time limit of the tests.
 #include <gtest/gtest.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <array>
@@ -26,6 +24,7 @@
 #include "host/settings/HostOptions.h"
 #include "shared/net/base/SafeFile.h"
 #include "shared/net/stream/TlsContext.h"
+#include "tests/server/host/admin/Talk.h"
 #include "tests/support/TempFolder.h"
 #include "tests/support/Text.h"
 
@@ -48,23 +47,13 @@ void PrintTo(const Hostile& hostile, std::ostream* p_out) {
   *p_out << hostile.name;
 }
 
-bool makeSocket(const fs::path& path) {
-  const int descriptor = ::socket(AF_UNIX, SOCK_STREAM, 0);
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  path.string().copy(address.sun_path, sizeof address.sun_path - 1);
-  const bool good = ::bind(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
-  ::close(descriptor);
-  return good;
-}
-
 bool copyWithMode(const fs::path& path, const fs::path& good, mode_t mode) {
   return fs::copy_file(good, path) && ::chmod(path.c_str(), mode) == 0;
 }
 
 const Hostile kHostile[] = {
     {"pipe", [](const auto& path, const auto&) { return ::mkfifo(path.c_str(), 0600) == 0; }},
-    {"socket", [](const auto& path, const auto&) { return makeSocket(path); }},
+    {"socket", [](const auto& path, const auto&) { return test::leaveSocket(path); }},
     {"folder", [](const auto& path, const auto&) { return fs::create_directory(path); }},
     {"device",
      [](const auto& path, const auto&) { return ::mknod(path.c_str(), S_IFCHR | 0600, makedev(1, 5)) == 0; }},

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sqlite3.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -69,9 +68,7 @@ TEST_F(ScoreKeeperTest, NextServerLoadsTheScores) {
   EXPECT_EQ(rows[0].number, 1);
   EXPECT_EQ(rows[0].at, 1'800'000'000);
   EXPECT_EQ(rows[0].recording, "round.dfr");
-  struct stat status {};
-  ASSERT_EQ(::stat((folder / "scores.sqlite3").c_str(), &status), 0);
-  EXPECT_EQ(status.st_mode & 0777u, 0600u);
+  EXPECT_EQ(test::modeOf(folder / "scores.sqlite3"), 0600u);
 }
 
 TEST_F(ScoreKeeperTest, EachGameHasItsOwnScores) {

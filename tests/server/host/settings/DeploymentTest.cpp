@@ -1,7 +1,6 @@
 // Options of dfserver that name something outside: --check-config and the start refuse what cannot be used.
 #include <gtest/gtest.h>
 #include <stdlib.h>
-#include <sys/stat.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -167,9 +166,7 @@ TEST_F(DefaultFoldersTest, GameProgramsRecordNoRoundsByDefault) {
 TEST_F(DefaultFoldersTest, TheFolderIsMadeForThisUserAlone) {
   EXPECT_TRUE(usesJournal(withUsableJournal(parse({}), log())));
   EXPECT_TRUE(lines.empty());
-  struct stat facts {};
-  ASSERT_EQ(stat((folder / "state" / "rounds").c_str(), &facts), 0);
-  EXPECT_EQ(facts.st_mode & 0777, 0700u);
+  EXPECT_EQ(test::modeOf(folder / "state" / "rounds"), 0700u);
 }
 
 TEST_F(DefaultFoldersTest, UncreatableFolderIsLoggedAndDisablesTheJournal) {

@@ -66,12 +66,8 @@ TEST(HostOptions, RereadingThrowsInsteadOfPrinting) {
   const char* const together[] = {"dfserver", "--qr"};
   EXPECT_THROW(readHostOptions(2, together), OptionError);
   const char* const unknown[] = {"dfserver", "--max-plyers", "3"};
-  try {
-    readHostOptions(3, unknown);
-    ADD_FAILURE() << "it was taken";
-  } catch (const OptionError& error) {
-    EXPECT_STREQ(error.what(), "there is no option --max-plyers; did you mean --max-players?");
-  }
+  EXPECT_EQ(test::errorOf<OptionError>([&] { readHostOptions(3, unknown); }),
+            "there is no option --max-plyers; did you mean --max-players?");
 }
 
 TEST(HostOptions, ReloadAppliesChangeableOptions) {
@@ -282,12 +278,7 @@ class ProgramOptions : public testing::Test {
   }
   std::string complaint() {
     options = {};
-    try {
-      read();
-    } catch (const OptionError& error) {
-      return error.what();
-    }
-    return {};
+    return test::errorOf<OptionError>([this] { read(); });
   }
 
   std::map<std::string, std::string> config;
