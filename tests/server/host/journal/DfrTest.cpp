@@ -235,10 +235,7 @@ TEST(DfrTest, UnknownRecordsAreSkipped) {
   std::string records;
   TurnRecordWriter writer;
   writer.write(WorldTurn(), records);
-  records += std::string(
-      "\x04\x63"
-      "abc",
-      5);  // record of kind 99
+  records += "\4cabc";  // record of kind 99, 'c'
   writer.write(TickResult(), records);
   TurnRecordReader reader;
   reader.add(records);
@@ -261,11 +258,7 @@ TEST(DfrTest, ChunkWithOversizedLengthIsDamaged) {
 TEST(DfrTest, DecompressionBombIsReportedAsDamaged) {
   DfrTurnPacker packer;
   std::string records;
-  for (int i = 0; i < 100'000; ++i)
-    records += std::string(
-        "\x04\x63"
-        "aaa",
-        5);
+  for (int i = 0; i < 100'000; ++i) records += "\4caaa";
   std::string bytes = encodeDfrHeader({});
   for (int i = 0; i < 6; ++i) bytes += packer.pack(records);
   ASSERT_LT(bytes.size(), 20'000u);

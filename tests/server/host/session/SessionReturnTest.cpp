@@ -315,14 +315,6 @@ TEST_F(SessionReturn, DisconnectReleasesHeldKeysAfterQueuedInputs) {
   EXPECT_TRUE(taken().empty()) << "once";
 }
 
-TEST_F(SessionReturn, ResumeInNewProcessReleasesOldKeysFirst) {
-  first.key(1, df::Keyboard::A, df::KEY_PRESSED);
-  const auto other = resume(second, true);
-  second.key(2, df::Keyboard::A, df::KEY_PRESSED);
-  const std::string a = std::to_string(int{df::Keyboard::A});
-  EXPECT_EQ(taken(), (std::vector<std::string>{a + " down", a + " up", a + " down"}));
-}
-
 TEST_F(SessionReturn, ResumeOnANewStreamKeepsHeldKeys) {
   first.key(1, df::Keyboard::A, df::KEY_PRESSED);
   const auto other = resume(second);

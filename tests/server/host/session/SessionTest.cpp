@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "host/session/Session.h"
-#include "shared/replica/Limits.h"
 #include "shared/values/Keyboard.h"
 #include "tests/server/host/rooms/Clients.h"
 #include "tests/server/host/snapshot/DirectSender.h"
@@ -60,19 +59,8 @@ class SessionTest : public testing::Test {
     message.set_update(writeUpdate(update));
     return message;
   }
-  static Input keyInput(std::uint32_t id, int which = 0, int action = 0) {
-    return {.id = id, .action = static_cast<std::uint8_t>(action), .key = static_cast<std::uint8_t>(which)};
-  }
-  static Input mouseInput(std::uint32_t id, int action, int button, int x, int y) {
-    Input input = keyInput(id, 0, action);
-    input.is_mouse = true;
-    input.button = static_cast<std::uint8_t>(button);
-    input.x = static_cast<std::uint16_t>(x);
-    input.y = static_cast<std::uint16_t>(y);
-    return input;
-  }
-  static wire::ClientMessage key(std::uint32_t id, int which = 0, int action = 0) {
-    return inputs({keyInput(id, which, action)});
+  static Input keyInput(std::uint32_t id, int which = 0) {
+    return {.id = id, .key = static_cast<std::uint8_t>(which)};
   }
   std::vector<std::uint32_t> drainInputs(std::uint32_t tick = 1) {
     std::vector<std::uint32_t> ids;
@@ -182,14 +170,6 @@ TEST_F(SessionTest, EndsAtMoreInputsThanTheQueueHolds) {
   EXPECT_EQ(counters.input_floods, 1u);
 }
 
-TEST_F(SessionTest, InputsOfEveryKindAreTaken) {
-  greet();
-  line.receive(
-      inputs({keyInput(1, df::Keyboard::kKeyCount - 1, df::KEY_DOWN),
-              mouseInput(2, df::MOVED, df::Mouse::MIDDLE + 1, kMaxViewWidth - 1, kMaxViewHeight - 1)}));
-  EXPECT_EQ(drainInputs().size(), 2u);
-}
-
 TEST_F(SessionTest, PartlyInvalidUpdateIsRejectedEntirely) {
   greet();
   line.receive(inputs({keyInput(1), keyInput(2, 127)}));
@@ -203,29 +183,9 @@ TEST_P(BadInput, EndsTheSession) {
   greet();
   wire::ClientMessage nothing;
   nothing.set_update("");
-  wire::ClientMessage cut = key(1);
-  cut.mutable_update()->pop_back();
-  wire::ClientMessage longer = key(1);
-  longer.mutable_update()->push_back('\0');
-  wire::ClientMessage large;
-  large.set_update(std::string(kMaxUpdate + 1, '\0'));
-  const wire::ClientMessage bad[] = {
-      {},
-      hello(),
-      key(0),
-      key(1, df::Keyboard::kKeyCount),
-      key(1, 127),
-      key(1, 0, df::KEY_DOWN + 1),
-      inputs({mouseInput(1, df::MOVED + 1, 0, 0, 0)}),
-      inputs({mouseInput(1, 0, 0, kMaxViewWidth, 0)}),
-      inputs({mouseInput(1, 0, 0, 0, kMaxViewHeight)}),
-      nothing,
-      cut,
-      longer,
-      large,
-  };
-  ASSERT_EQ(std::size(bad), 13u);
-  hearBytes(GetParam() < 0 ? "\xff\xff\xff" : bad[GetParam()].SerializeAsString());
+  const std::string bad[] = {"\xff\xff\xff", "", hello().SerializeAsString(), nothing.SerializeAsString(),
+                             inputs({keyInput(1, df::Keyboard::kKeyCount)}).SerializeAsString()};
+  hearBytes(bad[GetParam()]);
   EXPECT_TRUE(ended());
   EXPECT_EQ(counters.malformed_messages, 1u);
   line.say("still there?");
@@ -233,7 +193,7 @@ TEST_P(BadInput, EndsTheSession) {
   EXPECT_TRUE(drainInputs().empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Session, BadInput, testing::Range(-1, 13));
+INSTANTIATE_TEST_SUITE_P(Session, BadInput, testing::Range(0, 5));
 
 TEST_F(SessionTest, ChatIsSanitizedAndLimitedToThreeASecond) {
   greet();
@@ -478,24 +438,24 @@ TEST_F(SessionTest, SnapshotsNameTheNewestInputThatReachedTheGame) {
 
 constexpr std::size_t kPile = StallDetector::kStallThreshold + 1000;
 
-TEST(StallDetector, SlowStreamIsNotStuck) {
+class StallDetectorTest : public testing::Test {
+ protected:
   StallDetector detector;
   StallDetector::Time now{1h};
+};
+
+TEST_F(StallDetectorTest, SlowStreamIsNotStuck) {
   for (std::size_t left = 900'000; left > 1000; left -= 1000, now += 9s) {
     ASSERT_FALSE(detector.addSample(left, now)) << left;
   }
 }
 
-TEST(StallDetector, SmallBacklogIsNeverStuck) {
-  StallDetector detector;
-  StallDetector::Time now{1h};
+TEST_F(StallDetectorTest, SmallBacklogIsNeverStuck) {
   for (int i = 0; i < 100; ++i, now += 1s)
     ASSERT_FALSE(detector.addSample(StallDetector::kStallThreshold, now));
 }
 
-TEST(StallDetector, EachNewBacklogRestartsTheTimeout) {
-  StallDetector detector;
-  StallDetector::Time now{1h};
+TEST_F(StallDetectorTest, EachNewBacklogRestartsTheTimeout) {
   detector.addSample(kPile, now);
   detector.addSample(10, now + 9s);
   EXPECT_FALSE(detector.addSample(kPile, now + 10s));

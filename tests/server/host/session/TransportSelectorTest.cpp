@@ -81,22 +81,6 @@ TEST_F(TransportSelectorTest, AcknowledgementOnTheStreamDoesNotOpenDatagrams) {
   EXPECT_FALSE(selector.isOpen(now));
 }
 
-TEST_F(TransportSelectorTest, ClosesAfterASecondWithoutAcknowledgement) {
-  open();
-  now += 999ms;
-  send(true);
-  EXPECT_TRUE(selector.isOpen(now));
-  now += 1ms;
-  EXPECT_FALSE(selector.isOpen(now));
-  EXPECT_TRUE(selector.wantsProbe(now));
-  send(true);
-  EXPECT_FALSE(selector.wantsProbe(now));
-  now += PathProbe::kEagerProbeInterval - 1ms;
-  EXPECT_FALSE(selector.wantsProbe(now));
-  now += 1ms;
-  EXPECT_TRUE(selector.wantsProbe(now));
-}
-
 TEST_F(TransportSelectorTest, RepeatedAcknowledgementDoesNotKeepDatagramsOpen) {
   open();
   for (int i = 0; i < 12; ++i) {

@@ -16,24 +16,23 @@ using test::cellsAt;
 class PublisherTest : public testing::Test {
  protected:
   PublisherTest() {
-    m_view.boundary = {cellsAt(0, 0), cellsAt(80, 24)};
-    m_view.players.push_back({});
-    m_view.players[0].id = 1;
+    view.boundary = {cellsAt(0, 0), cellsAt(80, 24)};
+    view.players.push_back({});
+    view.players[0].id = 1;
   }
 
-  df::WorldView& view() { return m_view; }
   df::ObjectFacts& changed(std::uint32_t slot, df::FixedVector position, df::FixedVector velocity = {}) {
     df::ObjectFacts facts;
     facts.key = {slot, 1};
     facts.order = slot;
     facts.position = position;
     facts.velocity = velocity;
-    return m_view.changed.emplace_back(facts);
+    return view.changed.emplace_back(facts);
   }
   void drew(df::ObjectKey key, const std::vector<df::DrawCommand>& commands) {
-    m_view.drawn.push_back({key, static_cast<std::uint32_t>(m_view.commands.size()),
-                            static_cast<std::uint32_t>(commands.size())});
-    m_view.commands.insert(m_view.commands.end(), commands.begin(), commands.end());
+    view.drawn.push_back(
+        {key, static_cast<std::uint32_t>(view.commands.size()), static_cast<std::uint32_t>(commands.size())});
+    view.commands.insert(view.commands.end(), commands.begin(), commands.end());
   }
   void drew(std::uint32_t slot, df::FixedVector position, char32_t ch = U'@') {
     drew({slot, 1}, {{position, ch, df::CYAN}});
@@ -46,7 +45,7 @@ class PublisherTest : public testing::Test {
   /// Lets the object declare its look and draw the frame that is due in the next tick.
   void showed(std::uint32_t slot, df::FixedVector position, const Look& look) {
     std::vector<df::DrawCommand> commands;
-    for (const Glyph& glyph : *look.select(m_view.tick + 1)) {
+    for (const Glyph& glyph : *look.select(view.tick + 1)) {
       const df::FixedVector offset{df::Fixed{glyph.dx} * (df::kFixedOne / 256),
                                    df::Fixed{glyph.dy} * (df::kFixedOne / 256)};
       commands.push_back({position + offset, glyph.ch, glyph.color});
@@ -55,25 +54,22 @@ class PublisherTest : public testing::Test {
     drew({slot, 1}, commands);
   }
   void declares(const Look& look) {
-    m_view.looks.push_back(
-        {static_cast<std::uint32_t>(m_view.drawn.size()), std::make_shared<const Look>(look)});
+    view.looks.push_back({static_cast<std::uint32_t>(view.drawn.size()), std::make_shared<const Look>(look)});
   }
   /// Publishes the tick, returns its changes, and begins the next.
   std::vector<Publisher::Change> publish() {
-    ++m_view.tick;
-    publisher.update(m_view);
-    m_view.changed.clear();
-    m_view.vanished.clear();
-    m_view.drawn.clear();
-    m_view.commands.clear();
-    m_view.looks.clear();
+    ++view.tick;
+    publisher.update(view);
+    view.changed.clear();
+    view.vanished.clear();
+    view.drawn.clear();
+    view.commands.clear();
+    view.looks.clear();
     return publisher.changes();
   }
 
   Publisher publisher;
-
- private:
-  df::WorldView m_view;
+  df::WorldView view;
 };
 
 std::uint8_t groupsOf(const std::vector<Publisher::Change>& changes, std::uint32_t slot) {
@@ -106,11 +102,11 @@ TEST_F(PublisherTest, FlightIsPublishedOnce) {
 TEST_F(PublisherTest, ViewObjectStandsStillWhileViewsMove) {
   for (int i = 0; i < 50; ++i) {
     const df::FixedVector corner = cellsAt(100 + 0.3 * i, 7.5);  // corner of the world's own view
-    view().corner = corner;
-    view().players[0].view_corner = cellsAt(-3.0 * i, 900);  // a player's view far from it
+    view.corner = corner;
+    view.players[0].view_corner = cellsAt(-3.0 * i, 900);  // a player's view far from it
     changed(1, cellsAt(40, 1)).on_view = true;
     drew(1, corner + cellsAt(38, 1), U'H');
-    view().drawn.back().on_view = true;
+    view.drawn.back().on_view = true;
     EXPECT_EQ(publish().size(), i == 0 ? 1u : 0u) << "tick " << i;
   }
   const Publisher::Model& model = *publisher.find(1);
@@ -125,7 +121,7 @@ TEST_F(PublisherTest, ViewObjectStandsStillWhileViewsMove) {
 
 TEST_F(PublisherTest, InvalidBackgroundColourBecomesBlack) {
   const auto published = [&](df::Color background) {
-    view().background = background;
+    view.background = background;
     publish();
     return publisher.world().background;
   };
@@ -200,7 +196,7 @@ TEST_F(PublisherTest, StandingSolidObjectsAreExactOnceAClientPredicts) {
   drawn(0, position);
   publish();
   EXPECT_NE(publisher.find(0)->state.motion.position, position) << "coarse is shorter";
-  view().players[0].steering.p_table = std::make_shared<df::ControlTable>();
+  view.players[0].steering.p_table = std::make_shared<df::ControlTable>();
   drew(0, position);
   EXPECT_EQ(groupsOf(publish(), 0), kMotion);
   EXPECT_EQ(publisher.find(0)->state.motion.position, position);
@@ -255,7 +251,7 @@ TEST_F(PublisherTest, HalfCellSpriteInFlightNeedsFewCorrections) {
 }
 
 TEST_F(PublisherTest, SolidObjectStoppingAndHidingIsHiddenAtOnce) {
-  view().players[0].steering.p_table = std::make_shared<df::ControlTable>();
+  view.players[0].steering.p_table = std::make_shared<df::ControlTable>();
   drawn(0, cellsAt(10.3, 10), cellsAt(0.2, 0));
   publish();
   changed(0, cellsAt(10.35, 10)).shown = false;  // the position must become exact in this tick
@@ -279,15 +275,15 @@ TEST_F(PublisherTest, AnObjectThatLeavesEveryViewKeepsItsLook) {
 TEST_F(PublisherTest, SlotReuseInOneTickIsOneChange) {
   changed(3, cellsAt(10, 10));
   publish();
-  view().vanished.push_back({3, 1});
+  view.vanished.push_back({3, 1});
   changed(3, cellsAt(11, 11)).key.generation = 2;
   const auto changes = publish();
   ASSERT_EQ(changes.size(), 1u);
   EXPECT_EQ(changes[0].groups, kAllGroups);
   EXPECT_EQ(publisher.find(3)->generation, 2u);
-  view().vanished.push_back({3, 1});  // a death already reported
+  view.vanished.push_back({3, 1});  // a death already reported
   EXPECT_TRUE(publish().empty());
-  view().vanished.push_back({3, 2});
+  view.vanished.push_back({3, 2});
   EXPECT_EQ(groupsOf(publish(), 3), 0);
   EXPECT_EQ(publisher.find(3), nullptr);
 }
@@ -379,7 +375,7 @@ TEST_F(PublisherTest, ALookThatChangesByItselfIsPublishedOnce) {
        {Selector::clock(1, 3), Selector::clock(1, 5, false), Selector::turning(1, 123456789, 98765432),
         Selector::turning(1, 0, -1'000'003), Selector::fixed(2)}) {
     publisher = Publisher();
-    view().tick = 0;
+    view.tick = 0;
     const Look look{wheel(), 2, selector};
     changed(0, cellsAt(10, 10));
     showed(0, cellsAt(10, 10), look);
@@ -399,10 +395,10 @@ TEST_F(PublisherTest, PaceChangeIsPublishedWithTheFirstDifferentFrame) {
   showed(0, cellsAt(10, 10), look);
   publish();
   const Look before = look;
-  look.selector = Selector::turning(view().tick, before.selector.angleAt(view().tick), 1 << 25);
+  look.selector = Selector::turning(view.tick, before.selector.angleAt(view.tick), 1 << 25);
   int published = 0;
   for (int i = 0; i < 500; ++i) {
-    const std::uint32_t tick = view().tick + 1;
+    const std::uint32_t tick = view.tick + 1;
     showed(0, cellsAt(10, 10), look);
     const auto changes = publish();
     const bool differs = published == 0 && look.select(tick) != before.select(tick);

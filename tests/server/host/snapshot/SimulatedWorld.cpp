@@ -231,22 +231,16 @@ void SimulatedWorld::draw() {
         return df::intersects(box, {corner, cellsAt(m_config.view_width, m_config.view_height)});
       });
       if (!in_view) continue;
+      std::vector<df::DrawCommand> look = thing.look;
       if (thing.p_told != nullptr) {
         m_view.looks.push_back({static_cast<std::uint32_t>(m_view.drawn.size()), thing.p_told});
-        const Appearance& frame = *thing.p_told->select(m_view.tick);
-        m_view.drawn.push_back({thing.facts.key, static_cast<std::uint32_t>(m_view.commands.size()),
-                                static_cast<std::uint32_t>(frame.size())});
-        for (const Glyph& glyph : frame) {
-          const df::FixedVector offset{df::Fixed{glyph.dx} << 24, df::Fixed{glyph.dy} << 24};
-          m_view.commands.push_back({thing.facts.position + offset, glyph.ch, glyph.color});
-        }
-        continue;
+        for (const Glyph& glyph : *thing.p_told->select(m_view.tick))
+          look.push_back({{df::Fixed{glyph.dx} << 24, df::Fixed{glyph.dy} << 24}, glyph.ch, glyph.color});
       }
       m_view.drawn.push_back({thing.facts.key, static_cast<std::uint32_t>(m_view.commands.size()),
-                              static_cast<std::uint32_t>(thing.look.size())});
-      for (const df::DrawCommand& command : thing.look) {
+                              static_cast<std::uint32_t>(look.size())});
+      for (const df::DrawCommand& command : look)
         m_view.commands.push_back({thing.facts.position + command.position, command.ch, command.color});
-      }
     }
   }
 }

@@ -76,13 +76,19 @@ pid_t waitForStart(const StartedWorld& world) {
              : -1;
 }
 
-/// Waits until the world and its descendants have ended. Returns its status; nullopt after a timeout.
-std::optional<int> waitForEnd(const StartedWorld& world) {
+/// Waits for the supervisor's next report; nullopt after a timeout.
+std::optional<WorldExitReport> waitForReport(const StartedWorld& world) {
   pollfd readable{world.supervisor, POLLIN, 0};
   WorldExitReport end;
   if (poll(&readable, 1, kPatienceMillis) <= 0) return std::nullopt;
   if (recv(world.supervisor, &end, sizeof end, MSG_WAITALL) != sizeof end) return std::nullopt;
-  return end.status;
+  return end;
+}
+
+/// Waits until the world and its descendants have ended. Returns its status; nullopt after a timeout.
+std::optional<int> waitForEnd(const StartedWorld& world) {
+  const auto end = waitForReport(world);
+  return end ? std::optional<int>(end->status) : std::nullopt;
 }
 
 void closeBoth(const StartedWorld& world) {
@@ -283,22 +289,19 @@ class LeftCopies : public testing::Test {
     EXPECT_GT(waitForStart(world), 1);
     for (pid_t& one : left) one = std::stoi(readLine(world.socket));
     EXPECT_EQ(send(world.socket, "\n", 1, MSG_NOSIGNAL), 1);
-    EXPECT_EQ(waitForReport(), "exit 7, copies are there");
+    EXPECT_EQ(nextReport(), "exit 7, copies are there");
   }
   ~LeftCopies() override {
     closeBoth(world);
     close(world.copies);
   }
-  std::string waitForReport() const {
-    pollfd readable{world.supervisor, POLLIN, 0};
+  std::string nextReport() const {
     constexpr const char* kKinds[] = {", all have ended", ", copies are there", ", one goes on"};
-    WorldExitReport end;
-    if (poll(&readable, 1, kPatienceMillis) <= 0 ||
-        recv(world.supervisor, &end, sizeof end, MSG_WAITALL) != sizeof end)
-      return "nothing";
-    return (WIFEXITED(end.status) ? "exit " + std::to_string(WEXITSTATUS(end.status))
-                                  : "signal " + std::to_string(WTERMSIG(end.status))) +
-           kKinds[end.kind];
+    const auto end = waitForReport(world);
+    if (!end) return "nothing";
+    return (WIFEXITED(end->status) ? "exit " + std::to_string(WEXITSTATUS(end->status))
+                                   : "signal " + std::to_string(WTERMSIG(end->status))) +
+           kKinds[end->kind];
   }
   void order(const SupervisorCommand& order) const {
     EXPECT_EQ(send(world.supervisor, &order, sizeof order, MSG_NOSIGNAL), static_cast<ssize_t>(sizeof order));
@@ -312,22 +315,22 @@ class LeftCopies : public testing::Test {
 
 TEST_F(LeftCopies, ChosenCheckpointResumesAndUnlistedOnesEnd) {
   order({SupervisorCommand::kResume, left[0], {left[1], 0, 0}});
-  EXPECT_EQ(waitForReport(), "exit 7, one goes on");
+  EXPECT_EQ(nextReport(), "exit 7, one goes on");
   EXPECT_EQ(kill(left[2], 0), -1);
   EXPECT_EQ(kill(left[0], 0), 0);
   EXPECT_EQ(kill(left[1], 0), 0);
   order({SupervisorCommand::kEndWorld, 0, {}});
-  EXPECT_EQ(waitForReport(), "signal 9, copies are there");
+  EXPECT_EQ(nextReport(), "signal 9, copies are there");
   order({SupervisorCommand::kResume, left[1], {}});
-  EXPECT_EQ(waitForReport(), "signal 9, one goes on");
+  EXPECT_EQ(nextReport(), "signal 9, one goes on");
   shutdown(world.supervisor, SHUT_WR);
-  EXPECT_EQ(waitForReport(), "signal 9, all have ended");
+  EXPECT_EQ(nextReport(), "signal 9, all have ended");
   EXPECT_EQ(kill(left[1], 0), -1);
 }
 
 TEST_F(LeftCopies, OnlyAChildOfTheSupervisorResumes) {
   order({SupervisorCommand::kResume, getpid(), {left[0], left[1], left[2]}});
-  EXPECT_EQ(waitForReport(), "exit 7, all have ended");
+  EXPECT_EQ(nextReport(), "exit 7, all have ended");
   for (const pid_t one : left) EXPECT_EQ(kill(one, 0), -1);
 }
 
@@ -336,7 +339,7 @@ TEST_F(LeftCopies, CopiesWaitForALateOrder) {
   EXPECT_EQ(poll(&readable, 1, 1'200), 0);
   for (const pid_t one : left) EXPECT_EQ(kill(one, 0), 0);
   shutdown(world.supervisor, SHUT_WR);
-  EXPECT_EQ(waitForReport(), "exit 7, all have ended");
+  EXPECT_EQ(nextReport(), "exit 7, all have ended");
   for (const pid_t one : left) EXPECT_EQ(kill(one, 0), -1);
 }
 
