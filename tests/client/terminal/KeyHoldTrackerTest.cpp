@@ -19,8 +19,30 @@ KeyEvent repeated(Key key) {
   return {key, 0, KeyEvent::Action::kRepeat};
 }
 
-TEST(KeyHoldTracker, TapIsPressedAndReleasedAfter80Milliseconds) {
+class KeyHoldTrackerTest : public testing::Test {
+ protected:
+  /// Holds the key from `from` on, on a keyboard with a delay of 250 ms and 30 repeats a second. Returns the
+  /// time of the last repeat.
+  Time hold(Key key, Time from = kStart) {
+    keys.handleKey({key}, from);
+    for (Time now = from; now < from + 80ms; now += 10ms) keys.expire(now);
+    keys.expire(from + 80ms);
+    Time now = from + 250ms;
+    for (int i = 0; i < 6; ++i, now += 33ms) keys.handleKey({key}, now);
+    return now - 33ms;
+  }
+  void expectToEndAHold(Key one, Key other) {
+    keys = KeyHoldTracker();
+    const Time last = hold(one);
+    EXPECT_EQ(keys.handleKey({other}, last + 20ms),
+              (Actions{{one, df::KEY_RELEASED}, {other, df::KEY_PRESSED}}));
+    EXPECT_TRUE(keys.tick().empty()) << "no KEY_DOWN of the old direction goes against the new one";
+  }
+
   KeyHoldTracker keys;
+};
+
+TEST_F(KeyHoldTrackerTest, TapIsPressedAndReleasedAfter80Milliseconds) {
   EXPECT_EQ(keys.handleKey(kLeft, kStart), (Actions{{LEFTARROW, df::KEY_PRESSED}}));
   EXPECT_TRUE(keys.tick().empty()) << "one byte is not a held key";
   EXPECT_EQ(keys.deadline(), kStart + 80ms);
@@ -29,8 +51,7 @@ TEST(KeyHoldTracker, TapIsPressedAndReleasedAfter80Milliseconds) {
   EXPECT_TRUE(keys.expire(kStart + 1s).empty());
 }
 
-TEST(KeyHoldTracker, HeldKeyIsDownFromTheSecondRepeatOn) {
-  KeyHoldTracker keys;
+TEST_F(KeyHoldTrackerTest, HeldKeyIsDownFromTheSecondRepeatOn) {
   keys.handleKey(kLeft, kStart);
   keys.expire(kStart + 80ms);
   // The keyboard's delay of half a second, then repeats every 33 ms.
@@ -42,8 +63,7 @@ TEST(KeyHoldTracker, HeldKeyIsDownFromTheSecondRepeatOn) {
   EXPECT_EQ(keys.expire(kStart + 613ms), (Actions{{LEFTARROW, df::KEY_RELEASED}}));
 }
 
-TEST(KeyHoldTracker, LearnsASlowRepeatRate) {
-  KeyHoldTracker keys;
+TEST_F(KeyHoldTrackerTest, LearnsASlowRepeatRate) {
   Time now = kStart;
   for (int i = 0; i < 60; ++i) keys.handleKey(kLeft, now += 75ms);
   EXPECT_GT(keys.releaseDelay(), 105ms);
@@ -52,35 +72,21 @@ TEST(KeyHoldTracker, LearnsASlowRepeatRate) {
   EXPECT_EQ(keys.expire(now + 115ms).size(), 1u);
 }
 
-TEST(KeyHoldTracker, BunchedRepeatsDoNotShortenTheDelay) {
-  KeyHoldTracker keys;
+TEST_F(KeyHoldTrackerTest, BunchedRepeatsDoNotShortenTheDelay) {
   for (int i = 0; i < 100; ++i) keys.handleKey(kLeft, kStart);
   EXPECT_EQ(keys.releaseDelay(), 80ms);
 }
 
-TEST(KeyHoldTracker, KeysAreIndependent) {
-  KeyHoldTracker keys;
+TEST_F(KeyHoldTrackerTest, KeysAreIndependent) {
   keys.handleKey({A}, kStart);
   keys.handleKey({B}, kStart + 50ms);
   EXPECT_EQ(keys.expire(kStart + 80ms), (Actions{{A, df::KEY_RELEASED}}));
   EXPECT_EQ(keys.expire(kStart + 130ms), (Actions{{B, df::KEY_RELEASED}}));
 }
 
-/// Holds the key from `from` on, on a keyboard with a delay of 250 ms and 30 repeats a second. Returns the
-/// time of the last repeat.
-Time hold(KeyHoldTracker& keys, Key key, Time from) {
-  keys.handleKey({key}, from);
-  for (Time now = from; now < from + 80ms; now += 10ms) keys.expire(now);
-  keys.expire(from + 80ms);
-  Time now = from + 250ms;
-  for (int i = 0; i < 6; ++i, now += 33ms) keys.handleKey({key}, now);
-  return now - 33ms;
-}
-
-TEST(KeyHoldTracker, AHeldKeyStaysDownWhileAnotherIsTapped) {
-  KeyHoldTracker keys;
+TEST_F(KeyHoldTrackerTest, AHeldKeyStaysDownWhileAnotherIsTapped) {
   // Keyboards repeat only the key pressed last, so from here on the arrow is silent, held or not.
-  const Time last = hold(keys, RIGHTARROW, kStart);
+  const Time last = hold(RIGHTARROW);
   EXPECT_EQ(keys.handleKey({SPACE}, last + 20ms), (Actions{{SPACE, df::KEY_PRESSED}}));
   EXPECT_EQ(keys.expire(last + 100ms), (Actions{{SPACE, df::KEY_RELEASED}}));
   EXPECT_EQ(keys.tick(), (Actions{{RIGHTARROW, df::KEY_DOWN}}));
@@ -88,9 +94,8 @@ TEST(KeyHoldTracker, AHeldKeyStaysDownWhileAnotherIsTapped) {
   EXPECT_EQ(keys.expire(last + 20ms + HoldRule::kCompanion), (Actions{{RIGHTARROW, df::KEY_RELEASED}}));
 }
 
-TEST(KeyHoldTracker, SilentKeyIsReleasedDespiteOtherKeys) {
-  KeyHoldTracker keys;
-  const Time last = hold(keys, RIGHTARROW, kStart);
+TEST_F(KeyHoldTrackerTest, SilentKeyIsReleasedDespiteOtherKeys) {
+  const Time last = hold(RIGHTARROW);
   Time now = last;
   bool released = false;
   for (int i = 0; i < 30; ++i) {
@@ -102,9 +107,8 @@ TEST(KeyHoldTracker, SilentKeyIsReleasedDespiteOtherKeys) {
   }
 }
 
-TEST(KeyHoldTracker, SecondPressAfterAnotherKeyIsANewPress) {
-  KeyHoldTracker keys;
-  const Time last = hold(keys, RIGHTARROW, kStart);
+TEST_F(KeyHoldTrackerTest, SecondPressAfterAnotherKeyIsANewPress) {
+  const Time last = hold(RIGHTARROW);
   keys.handleKey({SPACE}, last + 20ms);
   const KeyHoldTracker::Duration delay = keys.releaseDelay();
   EXPECT_EQ(
@@ -114,15 +118,7 @@ TEST(KeyHoldTracker, SecondPressAfterAnotherKeyIsANewPress) {
   EXPECT_EQ(keys.expire(last + 300ms), (Actions{{RIGHTARROW, df::KEY_RELEASED}}));
 }
 
-void expectToEndAHold(Key one, Key other) {
-  KeyHoldTracker keys;
-  const Time last = hold(keys, one, kStart);
-  EXPECT_EQ(keys.handleKey({other}, last + 20ms),
-            (Actions{{one, df::KEY_RELEASED}, {other, df::KEY_PRESSED}}));
-  EXPECT_TRUE(keys.tick().empty()) << "no KEY_DOWN of the old direction goes against the new one";
-}
-
-TEST(KeyHoldTracker, TheOppositeDirectionEndsAHold) {
+TEST_F(KeyHoldTrackerTest, TheOppositeDirectionEndsAHold) {
   const std::pair<Key, Key> axes[] = {{LEFTARROW, RIGHTARROW}, {UPARROW, DOWNARROW}, {A, D}, {W, S}};
   for (const auto& [low, high] : axes) {
     expectToEndAHold(low, high);
@@ -130,18 +126,16 @@ TEST(KeyHoldTracker, TheOppositeDirectionEndsAHold) {
   }
 }
 
-TEST(KeyHoldTracker, LearnsTheKeyboardsRepeatDelay) {
-  KeyHoldTracker keys;
+TEST_F(KeyHoldTrackerTest, LearnsTheKeyboardsRepeatDelay) {
   EXPECT_EQ(keys.pause(), KeyHoldTracker::Duration{});
-  hold(keys, RIGHTARROW, kStart);
+  hold(RIGHTARROW);
   EXPECT_EQ(keys.pause(), 250ms);
   // Quick taps do not count as the repeat delay.
   for (int i = 0; i < 5; ++i) keys.handleKey({LEFTARROW}, kStart + 2s + i * 120ms);
   EXPECT_EQ(keys.pause(), 250ms);
 }
 
-TEST(KeyHoldTracker, RealReleasesPassThrough) {
-  KeyHoldTracker keys;
+TEST_F(KeyHoldTrackerTest, RealReleasesPassThrough) {
   keys.setRealReleases(true);
   EXPECT_EQ(keys.handleKey({A}, kStart), (Actions{{A, df::KEY_PRESSED}}));
   EXPECT_EQ(keys.tick(), (Actions{{A, df::KEY_DOWN}}));
@@ -152,15 +146,13 @@ TEST(KeyHoldTracker, RealReleasesPassThrough) {
   EXPECT_TRUE(keys.tick().empty());
 }
 
-TEST(KeyHoldTracker, UndefinedKeysAndUnmatchedReleasesAreIgnored) {
-  KeyHoldTracker keys;
+TEST_F(KeyHoldTrackerTest, UndefinedKeysAndUnmatchedReleasesAreIgnored) {
   EXPECT_TRUE(keys.handleKey({UNDEFINED_KEY, U'é'}, kStart).empty());
   keys.setRealReleases(true);
   EXPECT_TRUE(keys.handleKey(released(T), kStart).empty());
 }
 
-TEST(KeyHoldTracker, LeavesNoKeyDownWhenTheModeChanges) {
-  KeyHoldTracker keys;
+TEST_F(KeyHoldTrackerTest, LeavesNoKeyDownWhenTheModeChanges) {
   keys.handleKey({A}, kStart);
   EXPECT_EQ(keys.setRealReleases(true), (Actions{{A, df::KEY_RELEASED}}));
   keys.handleKey({B}, kStart);
@@ -168,8 +160,7 @@ TEST(KeyHoldTracker, LeavesNoKeyDownWhenTheModeChanges) {
   EXPECT_TRUE(keys.releaseAll().empty());
 }
 
-TEST(KeyHoldTracker, NumberOfHeldKeysIsBounded) {
-  KeyHoldTracker keys;
+TEST_F(KeyHoldTrackerTest, NumberOfHeldKeysIsBounded) {
   keys.setRealReleases(true);
   for (int k = A; k <= Z; ++k) keys.handleKey({static_cast<Key>(k)}, kStart);
   EXPECT_EQ(keys.tick().size(), KeyHoldTracker::kMaxHeld);

@@ -15,38 +15,41 @@ KeyEvent typed(Key key, char32_t ch) {
   return {key, ch};
 }
 
-/// Types the prefix key and this key.
-Result command(ClientControls& controls, Key key, char32_t ch) {
-  controls.handleKey(kPrefix);
-  return controls.handleKey(typed(key, ch));
-}
+class ClientControlsTest : public testing::Test {
+ protected:
+  /// Types the prefix key and this key.
+  Result command(Key key, char32_t ch) {
+    controls.handleKey(kPrefix);
+    return controls.handleKey(typed(key, ch));
+  }
 
-TEST(ClientControls, OrdinaryKeysGoToTheGame) {
   ClientControls controls;
+};
+
+TEST_F(ClientControlsTest, OrdinaryKeysGoToTheGame) {
   EXPECT_EQ(controls.handleKey(typed(Q, U'q')), Result::kGame);
   EXPECT_EQ(controls.handleKey({ESCAPE}), Result::kGame);
   EXPECT_EQ(controls.handleKey(typed(RIGHTBRACKET, U']')), Result::kGame);
 }
 
-TEST(ClientControls, PrefixOpensCommands) {
-  ClientControls controls;
+TEST_F(ClientControlsTest, PrefixOpensCommands) {
   EXPECT_EQ(controls.handleKey(kPrefix), Result::kHandled);
   EXPECT_TRUE(controls.prefixed());
   EXPECT_EQ(controls.handleKey(typed(P, U'p')), Result::kHandled);
   EXPECT_FALSE(controls.prefixed());
   EXPECT_EQ(controls.panel(), Panel::kPlayers);
-  command(controls, SLASH, U'?');
+  command(SLASH, U'?');
   EXPECT_EQ(controls.panel(), Panel::kHelp);
-  command(controls, H, U'h');
+  command(H, U'h');
   EXPECT_EQ(controls.panel(), Panel::kNone);
-  command(controls, S, U's');
+  command(S, U's');
   EXPECT_EQ(controls.status(), StatusMode::kNever);
-  EXPECT_EQ(command(controls, Q, U'q'), Result::kLeave);
+  EXPECT_EQ(command(Q, U'q'), Result::kLeave);
 }
 
-TEST(ClientControls, MenuLetterReplacesControlG) {
-  const auto opens = [](char letter, Key key, std::uint8_t modifiers) {
-    ClientControls controls;
+TEST_F(ClientControlsTest, MenuLetterReplacesControlG) {
+  const auto opens = [this](char letter, Key key, std::uint8_t modifiers) {
+    controls = ClientControls();
     controls.setMenuLetter(letter);
     controls.handleKey({key, 0, KeyEvent::Action::kPress, modifiers});
     return controls.prefixed();
@@ -58,10 +61,9 @@ TEST(ClientControls, MenuLetterReplacesControlG) {
   EXPECT_FALSE(opens('X', X, 0));
 }
 
-TEST(ClientControls, StatusKeyTogglesTheStatusLine) {
-  ClientControls controls;
-  const auto press = [&controls] {
-    command(controls, S, U's');
+TEST_F(ClientControlsTest, StatusKeyTogglesTheStatusLine) {
+  const auto press = [this] {
+    command(S, U's');
     return controls.status();
   };
   EXPECT_EQ(controls.status(), StatusMode::kAuto);
@@ -71,10 +73,9 @@ TEST(ClientControls, StatusKeyTogglesTheStatusLine) {
   EXPECT_EQ(press(), StatusMode::kNever);
 }
 
-TEST(ClientControls, KeysScrollAPanelThatDoesNotFit) {
-  ClientControls controls;
+TEST_F(ClientControlsTest, KeysScrollAPanelThatDoesNotFit) {
   EXPECT_EQ(controls.handleKey({DOWNARROW}), Result::kGame);
-  command(controls, H, U'h');
+  command(H, U'h');
   controls.onShown({.status = true, .max_scroll = 0, .page = 20});
   EXPECT_EQ(controls.handleKey({DOWNARROW}), Result::kGame) << "all of it is seen";
   controls.onShown({.status = true, .max_scroll = 30, .page = 20});
@@ -97,9 +98,8 @@ TEST(ClientControls, KeysScrollAPanelThatDoesNotFit) {
   EXPECT_EQ(controls.handleKey({DOWNARROW}), Result::kGame);
 }
 
-TEST(ClientControls, ArrowsChooseARoomAndReturnEntersIt) {
-  ClientControls controls;
-  EXPECT_EQ(command(controls, R, U'r'), Result::kHandled);
+TEST_F(ClientControlsTest, ArrowsChooseARoomAndReturnEntersIt) {
+  EXPECT_EQ(command(R, U'r'), Result::kHandled);
   EXPECT_EQ(controls.panel(), Panel::kRooms);
   controls.onShown({.rooms = 3});
   EXPECT_EQ(controls.handleKey({UPARROW}), Result::kHandled);
@@ -112,18 +112,16 @@ TEST(ClientControls, ArrowsChooseARoomAndReturnEntersIt) {
   EXPECT_EQ(controls.handleKey({RETURN}), Result::kGame);
 }
 
-TEST(ClientControls, ReturnClosesAnEmptyRoomList) {
-  ClientControls controls;
-  command(controls, R, U'r');
+TEST_F(ClientControlsTest, ReturnClosesAnEmptyRoomList) {
+  command(R, U'r');
   controls.onShown({.rooms = 0});
   EXPECT_EQ(controls.handleKey({RETURN}), Result::kHandled);
   EXPECT_EQ(controls.panel(), Panel::kNone);
 }
 
-TEST(ClientControls, PastedTextGoesIntoAnOpenChatLineOnly) {
-  ClientControls controls;
+TEST_F(ClientControlsTest, PastedTextGoesIntoAnOpenChatLineOnly) {
   EXPECT_FALSE(controls.insertPasted(U"secret"));
-  command(controls, T, U't');
+  command(T, U't');
   EXPECT_EQ(controls.chatText(), "");
   controls.handleKey(typed(X, U'x'));
   EXPECT_TRUE(controls.insertPasted(U"y\x202Ez ü"));
@@ -133,16 +131,15 @@ TEST(ClientControls, PastedTextGoesIntoAnOpenChatLineOnly) {
   EXPECT_TRUE(controls.isChatOpen()) << "it sends nothing";
 }
 
-TEST(ClientControls, ChatLineTellsWhenItOmitsCharacters) {
-  ClientControls controls;
-  command(controls, T, U't');
+TEST_F(ClientControlsTest, ChatLineTellsWhenItOmitsCharacters) {
+  command(T, U't');
   for (const char32_t ch : std::u32string(U"aäжλ")) controls.handleKey({UNDEFINED_KEY, ch});
   EXPECT_FALSE(controls.hasOmittedText());
   controls.handleKey({UNDEFINED_KEY, U'李'});
   EXPECT_TRUE(controls.hasOmittedText());
   controls.handleKey({ESCAPE});
   EXPECT_FALSE(controls.hasOmittedText());
-  command(controls, T, U't');
+  command(T, U't');
   EXPECT_FALSE(controls.hasOmittedText());
   controls.insertPasted(U"سلام");
   EXPECT_TRUE(controls.hasOmittedText());
@@ -151,17 +148,15 @@ TEST(ClientControls, ChatLineTellsWhenItOmitsCharacters) {
   EXPECT_EQ(controls.chatText(), "gone");
 }
 
-TEST(ClientControls, PrefixTwiceClosesEverything) {
-  ClientControls controls;
-  command(controls, P, U'p');
+TEST_F(ClientControlsTest, PrefixTwiceClosesEverything) {
+  command(P, U'p');
   controls.handleKey(kPrefix);
   EXPECT_EQ(controls.handleKey(kPrefix), Result::kHandled);
   EXPECT_FALSE(controls.prefixed());
   EXPECT_EQ(controls.panel(), Panel::kNone);
 }
 
-TEST(ClientControls, ModifiersAndRepeatsDoNotEndThePrefix) {
-  ClientControls controls;
+TEST_F(ClientControlsTest, ModifiersAndRepeatsDoNotEndThePrefix) {
   controls.handleKey(kPrefix);
   controls.handleKey({RIGHTBRACKET, 0, KeyEvent::Action::kRepeat, kControl});
   controls.handleKey({RIGHTBRACKET, 0, KeyEvent::Action::kRelease, kControl});
@@ -171,16 +166,14 @@ TEST(ClientControls, ModifiersAndRepeatsDoNotEndThePrefix) {
   EXPECT_EQ(controls.panel(), Panel::kHelp);
 }
 
-TEST(ClientControls, ControlCLeavesAndControlZSuspendsAlways) {
-  ClientControls controls;
+TEST_F(ClientControlsTest, ControlCLeavesAndControlZSuspendsAlways) {
   EXPECT_EQ(controls.handleKey({Z, 0, KeyEvent::Action::kPress, kControl}), Result::kSuspend);
-  command(controls, T, U't');
+  command(T, U't');
   EXPECT_EQ(controls.handleKey({C, 0, KeyEvent::Action::kPress, kControl}), Result::kLeave);
 }
 
-TEST(ClientControls, ChatLineTakesText) {
-  ClientControls controls;
-  EXPECT_EQ(command(controls, T, U't'), Result::kOpened);
+TEST_F(ClientControlsTest, ChatLineTakesText) {
+  EXPECT_EQ(command(T, U't'), Result::kOpened);
   EXPECT_TRUE(controls.isChatOpen());
   for (const char32_t ch : std::u32string(U"hüx")) controls.handleKey({UNDEFINED_KEY, ch});
   controls.handleKey({BACKSPACE});
@@ -191,27 +184,24 @@ TEST(ClientControls, ChatLineTakesText) {
   EXPECT_FALSE(controls.isChatOpen());
 }
 
-TEST(ClientControls, EmptyOrCancelledChatSendsNothing) {
-  ClientControls controls;
-  command(controls, C, U'c');
+TEST_F(ClientControlsTest, EmptyOrCancelledChatSendsNothing) {
+  command(C, U'c');
   EXPECT_EQ(controls.handleKey({RETURN}), Result::kClosed);
-  command(controls, C, U'c');
+  command(C, U'c');
   controls.handleKey(typed(X, U'x'));
   EXPECT_EQ(controls.handleKey({ESCAPE}), Result::kClosed);
 }
 
-TEST(ClientControls, ChatIsBounded) {
-  ClientControls controls;
-  command(controls, T, U't');
+TEST_F(ClientControlsTest, ChatIsBounded) {
+  command(T, U't');
   for (int i = 0; i < 1000; ++i) controls.handleKey(typed(X, U'x'));
   EXPECT_EQ(controls.chatText().size(), kMaxChatLength);
 }
 
-TEST(ClientControls, KeysScrollTheChatWhileItsLineIsOpen) {
-  ClientControls controls;
+TEST_F(ClientControlsTest, KeysScrollTheChatWhileItsLineIsOpen) {
   controls.onShown({.max_chat_scroll = 20, .chat_page = 6});
   EXPECT_EQ(controls.handleKey({UPARROW}), Result::kGame);
-  command(controls, T, U't');
+  command(T, U't');
   EXPECT_EQ(controls.handleKey({UPARROW}), Result::kHandled);
   EXPECT_EQ(controls.chatScroll(), 1);
   controls.handleKey({PAGEUP});

@@ -23,12 +23,6 @@ ScreenModel model(int width = 80, int height = 24) {
   return m;
 }
 
-ScreenModel modelWith(Panel panel) {
-  ScreenModel m = model();
-  m.panel = panel;
-  return m;
-}
-
 /// Returns the first row with this text; −1 if there is none.
 int rowWith(const ScreenBuffer& picture, const std::string& text) {
   for (int y = 0; y < picture.height(); ++y) {
@@ -41,12 +35,23 @@ bool contains(const ScreenBuffer& picture, const std::string& text) {
   return rowWith(picture, text) >= 0;
 }
 
-TEST(ScreenLayout, RoomListShowsPlayersAndHighlightsTheChosenRoom) {
-  ScreenModel m = modelWith(Panel::kRooms);
+class ScreenLayoutTest : public testing::Test {
+ protected:
+  ScreenLayout compose(int columns = 80, int rows = 24) const { return composeScreen(m, columns, rows); }
+  ScreenBuffer drawn(int columns = 80, int rows = 24) const { return compose(columns, rows).picture; }
+  bool shows(const std::string& text, int columns = 80, int rows = 24) const {
+    return contains(drawn(columns, rows), text);
+  }
+
+  ScreenModel m = model();
+};
+
+TEST_F(ScreenLayoutTest, RoomListShowsPlayersAndHighlightsTheChosenRoom) {
+  m.panel = Panel::kRooms;
   m.room = "lobby";
   m.rooms = {{"lobby", "lobby", 2, 64, false}, {"arcade", "saucershoot", 0, 8, true}};
   m.room_choice = 1;
-  const ScreenLayout layout = composeScreen(m, 80, 24);
+  const ScreenLayout layout = compose();
   EXPECT_EQ(layout.shown.rooms, 2);
   EXPECT_TRUE(contains(layout.picture, "* lobby "));
   EXPECT_TRUE(contains(layout.picture, "arcade           saucershoot         0/8    asleep"));
@@ -57,22 +62,23 @@ TEST(ScreenLayout, RoomListShowsPlayersAndHighlightsTheChosenRoom) {
   }
 }
 
-TEST(ScreenLayout, MoreRoomsThanFitShowTheChosenOne) {
-  ScreenModel m = modelWith(Panel::kRooms);
+TEST_F(ScreenLayoutTest, MoreRoomsThanFitShowTheChosenOne) {
+  m.panel = Panel::kRooms;
   m.room = "room-0";
   for (int i = 0; i < 64; ++i) m.rooms.push_back({"room-" + std::to_string(i), "hello", 0, 8, false});
   for (int choice = 0; choice < 64; ++choice) {
     m.room_choice = choice;
-    EXPECT_TRUE(contains(composeScreen(m, 80, 24).picture, "room-" + std::to_string(choice) + " ")) << choice;
+    EXPECT_TRUE(shows("room-" + std::to_string(choice) + " ")) << choice;
   }
 }
 
-TEST(ScreenLayout, PanelSaysThatTheServerHasNoRooms) {
-  EXPECT_TRUE(contains(composeScreen(modelWith(Panel::kRooms), 80, 24).picture, "This server has no rooms."));
+TEST_F(ScreenLayoutTest, PanelSaysThatTheServerHasNoRooms) {
+  m.panel = Panel::kRooms;
+  EXPECT_TRUE(shows("This server has no rooms."));
 }
 
-TEST(ScreenLayout, LargeTerminalCentresAndFramesTheView) {
-  const ScreenLayout layout = composeScreen(model(), 100, 30);
+TEST_F(ScreenLayoutTest, LargeTerminalCentresAndFramesTheView) {
+  const ScreenLayout layout = compose(100, 30);
   const ViewPlacement& place = layout.placement;
   EXPECT_TRUE(place.framed);
   EXPECT_TRUE(place.status_row);
@@ -86,19 +92,18 @@ TEST(ScreenLayout, LargeTerminalCentresAndFramesTheView) {
   EXPECT_NE(layout.picture.rowText(29).find("Ctrl-G help"), std::string::npos);
 }
 
-TEST(ScreenLayout, HintsNameTheMenuKey) {
+TEST_F(ScreenLayoutTest, HintsNameTheMenuKey) {
+  m.panel = Panel::kHelp;
+  m.menu_letter = 'X';
   for (const auto& [columns, rows] : {std::pair{100, 30}, {80, 24}, {92, 24}, {120, 24}}) {
-    ScreenModel m = modelWith(Panel::kHelp);
-    m.menu_letter = 'X';
-    const ScreenBuffer picture = composeScreen(m, columns, rows).picture;
+    const ScreenBuffer picture = drawn(columns, rows);
     EXPECT_TRUE(contains(picture, "Ctrl-X h")) << columns;
     EXPECT_FALSE(contains(picture, "Ctrl-G")) << columns;
   }
 }
 
-TEST(ScreenLayout, StatusOverlaysBlankCellsWhenTerminalEqualsView) {
-  ScreenModel m = model();
-  const ScreenLayout layout = composeScreen(m, 80, 24);
+TEST_F(ScreenLayoutTest, StatusOverlaysBlankCellsWhenTerminalEqualsView) {
+  const ScreenLayout layout = compose();
   EXPECT_FALSE(layout.placement.framed);
   EXPECT_FALSE(layout.placement.status_row);
   EXPECT_TRUE(layout.shown.status);
@@ -106,29 +111,27 @@ TEST(ScreenLayout, StatusOverlaysBlankCellsWhenTerminalEqualsView) {
   EXPECT_EQ(layout.picture.at(79, 23).ch, U'Z') << "a corner that the game uses is the game's";
   EXPECT_NE(layout.picture.rowText(0).find(" 42 ms  2 players  Ctrl-G help "), std::string::npos);
   m.view.put(79, 0, {U'Y', df::BLUE});
-  EXPECT_NE(composeScreen(m, 80, 24).picture.rowText(23).find(" 42 ms  2 players"), std::string::npos);
-  EXPECT_EQ(composeScreen(m, 80, 24).picture.at(79, 23).ch, U'Z') << "on the left";
+  EXPECT_NE(drawn().rowText(23).find(" 42 ms  2 players"), std::string::npos);
+  EXPECT_EQ(drawn().at(79, 23).ch, U'Z') << "on the left";
 }
 
-TEST(ScreenLayout, StatusOverlayIsTemporaryButStatusRowStays) {
-  ScreenModel m = model();
+TEST_F(ScreenLayoutTest, StatusOverlayIsTemporaryButStatusRowStays) {
   m.status_over_game = false;
-  const ScreenLayout layout = composeScreen(m, 80, 24);
+  const ScreenLayout layout = compose();
   EXPECT_FALSE(layout.shown.status);
   EXPECT_FALSE(contains(layout.picture, "42 ms"));
   for (int y = 0; y < 24; ++y) {
     for (int x = 0; x < 80; ++x) EXPECT_EQ(layout.picture.at(x, y).ch, m.view.at(x, y).ch) << x << ' ' << y;
   }
-  EXPECT_TRUE(contains(composeScreen(m, 80, 25).picture, "42 ms")) << "where it covers nothing it stays";
+  EXPECT_TRUE(shows("42 ms", 80, 25)) << "where it covers nothing it stays";
   m.status_shown = false;
-  EXPECT_FALSE(contains(composeScreen(m, 80, 25).picture, "42 ms"));
+  EXPECT_FALSE(shows("42 ms", 80, 25));
 }
 
-TEST(ScreenLayout, SideColumnsHoldTheStatusWithoutASpareRow) {
-  ScreenModel m = model();
+TEST_F(ScreenLayoutTest, SideColumnsHoldTheStatusWithoutASpareRow) {
   m.status_over_game = false;
   m.note = "sound: fire";
-  const ScreenLayout layout = composeScreen(m, 92, 24);
+  const ScreenLayout layout = compose(92, 24);
   EXPECT_TRUE(layout.placement.status_side);
   EXPECT_TRUE(layout.shown.status);
   EXPECT_EQ(layout.placement.width, 80);
@@ -136,10 +139,10 @@ TEST(ScreenLayout, SideColumnsHoldTheStatusWithoutASpareRow) {
   EXPECT_EQ(layout.picture.at(layout.placement.left + 79, 23).ch, U'Z');
   for (const char* text : {"42 ms", "2 players", "Ctrl-G h", "sound: fir"})
     EXPECT_TRUE(contains(layout.picture, text)) << text;
-  EXPECT_FALSE(composeScreen(m, 90, 24).placement.status_side);
+  EXPECT_FALSE(compose(90, 24).placement.status_side);
 }
 
-TEST(ScreenLayout, StatusHasNoEmptyCountsAndNoTicks) {
+TEST_F(ScreenLayoutTest, StatusHasNoEmptyCountsAndNoTicks) {
   struct Case {
     int players;
     std::int32_t own_score, other_score;
@@ -154,53 +157,48 @@ TEST(ScreenLayout, StatusHasNoEmptyCountsAndNoTicks) {
       {2, 0, 0, " 42 ms   2 players ", " 42 ms  2 players  Ctrl", "2 players"},
   };
   for (const Case& c : cases) {
-    ScreenModel m = model();
+    m = model();
     m.self_name.clear();
     m.players.clear();
     m.score = c.own_score;
     for (int i = 0; i < c.players; ++i)
       m.players.push_back(
           {m.self + static_cast<unsigned>(i), "p", df::RED, i == 0 ? c.own_score : c.other_score, 5});
-    const std::string row = composeScreen(m, 80, 25).picture.rowText(24);
+    const std::string row = drawn(80, 25).rowText(24);
     EXPECT_EQ(row.rfind(c.row, 0), 0u) << row;
     EXPECT_EQ(row.find("tick"), std::string::npos) << row;
     EXPECT_EQ(row.find("point") != std::string::npos, std::string(c.row).find("point") != std::string::npos)
         << row;
-    EXPECT_TRUE(contains(composeScreen(m, 80, 24).picture, c.corner)) << c.corner;
-    EXPECT_TRUE(contains(composeScreen(m, 92, 24).picture, c.side)) << c.side;
+    EXPECT_TRUE(shows(c.corner)) << c.corner;
+    EXPECT_TRUE(shows(c.side, 92, 24)) << c.side;
     m.panel = Panel::kPlayers;
-    EXPECT_EQ(contains(composeScreen(m, 80, 24).picture, "points"), row.find("point") != std::string::npos)
-        << row;
+    EXPECT_EQ(shows("points"), row.find("point") != std::string::npos) << row;
   }
 }
 
-TEST(ScreenLayout, ANoteIsInTheStatusLine) {
-  ScreenModel m = model();
+TEST_F(ScreenLayoutTest, ANoteIsInTheStatusLine) {
   m.note = "sound: fire";
-  const std::string row = composeScreen(m, 80, 25).picture.rowText(24);
+  const std::string row = drawn(80, 25).rowText(24);
   EXPECT_NE(row.find("sound: fire  Ctrl-G help"), std::string::npos) << row;
   EXPECT_NE(row.find("42 ms   2 players"), std::string::npos) << row;
-  EXPECT_NE(composeScreen(m, 80, 24).picture.rowText(0).find(" sound: fire  42 ms"), std::string::npos);
+  EXPECT_NE(drawn().rowText(0).find(" sound: fire  42 ms"), std::string::npos);
   m.note = "music: " + std::string(40, 'x');
-  EXPECT_NE(composeScreen(m, 80, 24).picture.rowText(0).find(" music: " + std::string(13, 'x') + "  42 ms"),
-            std::string::npos)
+  EXPECT_NE(drawn().rowText(0).find(" music: " + std::string(13, 'x') + "  42 ms"), std::string::npos)
       << "it stays short";
   m.status_over_game = false;
-  EXPECT_NE(composeScreen(m, 80, 24).picture.rowText(0).find(" music: xxx"), std::string::npos)
-      << "where the game shows nothing";
+  EXPECT_NE(drawn().rowText(0).find(" music: xxx"), std::string::npos) << "where the game shows nothing";
   for (int x = 0; x < 80; ++x) {
     m.view.put(x, 0, {U'=', df::RED});
     m.view.put(x, 23, {U'=', df::RED});
   }
-  EXPECT_FALSE(contains(composeScreen(m, 80, 24).picture, "music")) << "it must not cover the game";
+  EXPECT_FALSE(shows("music")) << "it must not cover the game";
   m.status_shown = false;
-  EXPECT_FALSE(contains(composeScreen(m, 100, 30).picture, "music"));
+  EXPECT_FALSE(shows("music", 100, 30));
 }
 
-TEST(ScreenLayout, TheBackgroundIsBehindTheViewAndNowhereElse) {
-  ScreenModel m = model();
+TEST_F(ScreenLayoutTest, TheBackgroundIsBehindTheViewAndNowhereElse) {
   m.background = df::BLUE;
-  const ScreenBuffer picture = composeScreen(m, 100, 30).picture;
+  const ScreenBuffer picture = drawn(100, 30);
   EXPECT_EQ(picture.background(), df::BLUE);
   EXPECT_EQ(picture.at(10, 2).background, df::BLUE) << "behind a character";
   EXPECT_EQ(picture.at(50, 12).background, df::BLUE) << "and behind none";
@@ -210,35 +208,32 @@ TEST(ScreenLayout, TheBackgroundIsBehindTheViewAndNowhereElse) {
   EXPECT_EQ(composeScreen(model(), 100, 30).picture.background(), df::BLACK);
 }
 
-TEST(ScreenLayout, SmallTerminalCropsTheViewAroundTheFocus) {
-  ScreenModel m = model();
+TEST_F(ScreenLayoutTest, SmallTerminalCropsTheViewAroundTheFocus) {
   m.focus = {70, 20};
-  const ScreenLayout layout = composeScreen(m, 40, 12);
+  const ScreenLayout layout = compose(40, 12);
   EXPECT_EQ(layout.placement.view_x, 40);
   EXPECT_EQ(layout.placement.view_y, 12);
   EXPECT_EQ(layout.placement.toView(0, 0), (CellPosition{40, 12}));
   m.focus = {0, 0};
-  EXPECT_EQ(composeScreen(m, 40, 12).placement.toView(3, 4), (CellPosition{3, 4}));
+  EXPECT_EQ(compose(40, 12).placement.toView(3, 4), (CellPosition{3, 4}));
 }
 
-TEST(ScreenLayout, MouseBesideTheViewHitsNothing) {
-  const ViewPlacement place = composeScreen(model(), 100, 30).placement;
+TEST_F(ScreenLayoutTest, MouseBesideTheViewHitsNothing) {
+  const ViewPlacement place = compose(100, 30).placement;
   EXPECT_EQ(place.toView(9, 5), std::nullopt);
   EXPECT_EQ(place.toView(10, 2), (CellPosition{0, 0}));
   EXPECT_EQ(place.toView(89, 25), (CellPosition{79, 23}));
   EXPECT_EQ(place.toView(90, 25), std::nullopt);
 }
 
-TEST(ScreenLayout, TooSmallTerminalSaysSo) {
-  EXPECT_TRUE(contains(composeScreen(model(), 19, 10).picture, "Terminal too small"));
-  EXPECT_TRUE(contains(composeScreen(model(), 80, 9).picture, "80x9, needs 20x10"));
-  EXPECT_TRUE(contains(composeScreen(model(), 10, 3).picture, "too small"))
-      << "in few words where there is no room";
-  EXPECT_FALSE(contains(composeScreen(model(), 20, 10).picture, "small"));
+TEST_F(ScreenLayoutTest, TooSmallTerminalSaysSo) {
+  EXPECT_TRUE(shows("Terminal too small", 19, 10));
+  EXPECT_TRUE(shows("80x9, needs 20x10", 80, 9));
+  EXPECT_TRUE(shows("too small", 10, 3)) << "in few words where there is no room";
+  EXPECT_FALSE(shows("small", 20, 10));
 }
 
-TEST(ScreenLayout, AnySizeIsSafe) {
-  ScreenModel m = model();
+TEST_F(ScreenLayoutTest, AnySizeIsSafe) {
   m.help = {"Space fires."};
   m.banner = "Connection lost, reconnecting: 1.0 s";
   m.note = "sound: fire";
@@ -250,7 +245,7 @@ TEST(ScreenLayout, AnySizeIsSafe) {
       m.chat_open = chat;
       for (int columns = 0; columns < 120; columns += 7) {
         for (int rows = 0; rows < 40; rows += 3) {
-          const ScreenLayout layout = composeScreen(m, columns, rows);
+          const ScreenLayout layout = compose(columns, rows);
           EXPECT_EQ(layout.picture.width(), columns);
           if (layout.picture.cursor) {
             EXPECT_LT(layout.picture.cursor->x, columns);
@@ -261,39 +256,41 @@ TEST(ScreenLayout, AnySizeIsSafe) {
   }
 }
 
-TEST(ScreenLayout, PlayersAreListedByScore) {
-  const ScreenBuffer picture = composeScreen(modelWith(Panel::kPlayers), 100, 30).picture;
+TEST_F(ScreenLayoutTest, PlayersAreListedByScore) {
+  m.panel = Panel::kPlayers;
+  const ScreenBuffer picture = drawn(100, 30);
   const int bob = rowWith(picture, "Bob");
   EXPECT_GE(bob, 0);
   EXPECT_EQ(rowWith(picture, "Ada"), bob + 1);
   EXPECT_TRUE(contains(picture, "70"));
 }
 
-TEST(ScreenLayout, HelpShowsGameLinesClientKeysAndReleaseReporting) {
-  ScreenModel m = modelWith(Panel::kHelp);
+TEST_F(ScreenLayoutTest, HelpShowsGameLinesClientKeysAndReleaseReporting) {
+  m.panel = Panel::kHelp;
   m.help = {"Space fires."};
-  const ScreenBuffer picture = composeScreen(m, 80, 24).picture;
+  const ScreenBuffer picture = drawn();
   for (const char* text : {"Space fires.", "leave the game", "guessed"})
     EXPECT_TRUE(contains(picture, text)) << text;
   m.key_releases = true;
-  EXPECT_TRUE(contains(composeScreen(m, 80, 24).picture, "exact"));
+  EXPECT_TRUE(shows("exact"));
 }
 
-TEST(ScreenLayout, HelpWrapsInANarrowTerminal) {
-  ScreenModel m = modelWith(Panel::kHelp);
+TEST_F(ScreenLayoutTest, HelpWrapsInANarrowTerminal) {
+  m.panel = Panel::kHelp;
   // 76 characters, the limit of a server's line.
   m.help = {"This line of the game is as long as any can be, and here is its very end: END",
             "arrows or WASD   move the paddle, which is yours alone, and hold it where you want"};
   for (const int columns : {80, 76, 60, 40}) {
-    const ScreenLayout layout = composeScreen(m, columns, 40);
+    const ScreenLayout layout = compose(columns, 40);
     EXPECT_EQ(layout.shown.max_scroll, 0) << columns;
     for (const char* text : {"END", "want", "Esc closes", "close the help"})
       EXPECT_TRUE(contains(layout.picture, text)) << columns << text;
   }
 }
 
-TEST(ScreenLayout, WrappedHelpLinesAlignUnderTheirText) {
-  const ScreenBuffer picture = composeScreen(modelWith(Panel::kHelp), 50, 40).picture;
+TEST_F(ScreenLayoutTest, WrappedHelpLinesAlignUnderTheirText) {
+  m.panel = Panel::kHelp;
+  const ScreenBuffer picture = drawn(50, 40);
   // "Ctrl-G t   say something to all players (or Ctrl-G c)"
   const int row = rowWith(picture, "say something");
   ASSERT_TRUE(row >= 0 && row < 39);
@@ -302,10 +299,10 @@ TEST(ScreenLayout, WrappedHelpLinesAlignUnderTheirText) {
   EXPECT_EQ(next.find(U"Ctrl-G c"), first.find(U"say")) << picture.rowText(row + 1);
 }
 
-TEST(ScreenLayout, HelpThatDoesNotFitScrollsAndSaysSo) {
-  ScreenModel m = modelWith(Panel::kHelp);
+TEST_F(ScreenLayoutTest, HelpThatDoesNotFitScrollsAndSaysSo) {
+  m.panel = Panel::kHelp;
   for (int i = 0; i < 24; ++i) m.help.push_back("line " + std::to_string(i) + ".");
-  ScreenLayout layout = composeScreen(m, 76, 24);
+  ScreenLayout layout = compose(76, 24);
   EXPECT_TRUE(contains(layout.picture, "line 0."));
   EXPECT_FALSE(contains(layout.picture, "close the help"));
   EXPECT_TRUE(contains(layout.picture, "Down"));
@@ -313,34 +310,33 @@ TEST(ScreenLayout, HelpThatDoesNotFitScrollsAndSaysSo) {
   EXPECT_EQ(layout.shown.max_scroll, 24 + 1 + 11 - 22);
   EXPECT_EQ(layout.shown.page, 22);
   m.scroll = layout.shown.max_scroll;
-  layout = composeScreen(m, 76, 24);
+  layout = compose(76, 24);
   EXPECT_FALSE(contains(layout.picture, "line 0."));
   EXPECT_TRUE(contains(layout.picture, "close the help"));
   m.scroll = 1000;  // left over from a smaller terminal
-  EXPECT_TRUE(contains(composeScreen(m, 76, 24).picture, "close the help"));
-  EXPECT_TRUE(contains(composeScreen(m, 20, 10).picture, "Down"));
+  EXPECT_TRUE(shows("close the help", 76, 24));
+  EXPECT_TRUE(shows("Down", 20, 10));
 }
 
-TEST(ScreenLayout, PlayerListScrollsUnderItsHeader) {
-  ScreenModel m = modelWith(Panel::kPlayers);
+TEST_F(ScreenLayoutTest, PlayerListScrollsUnderItsHeader) {
+  m.panel = Panel::kPlayers;
   for (std::uint32_t i = 0; i < 64; ++i)
     m.players.push_back({10 + i, "p" + std::to_string(i), df::RED, -1, 5});
-  ScreenLayout layout = composeScreen(m, 80, 24);
+  ScreenLayout layout = compose();
   EXPECT_FALSE(contains(layout.picture, "p63"));
   EXPECT_TRUE(contains(layout.picture, "Esc closes"));
   m.scroll = layout.shown.max_scroll;
-  layout = composeScreen(m, 80, 24);
+  layout = compose();
   EXPECT_TRUE(contains(layout.picture, "p63"));
   EXPECT_TRUE(contains(layout.picture, "points"));
   EXPECT_FALSE(contains(layout.picture, "Bob"));
 }
 
-TEST(ScreenLayout, ChatLineShowsTheEndOfALongText) {
-  ScreenModel m = model();
+TEST_F(ScreenLayoutTest, ChatLineShowsTheEndOfALongText) {
   m.chat_open = true;
   m.chat_text = std::string(100, 'a') + "END";
   m.chat = {{"Bob", df::GREEN, "hi there", {}}, {"", df::WHITE, "Ada joined", {}}};
-  const ScreenLayout layout = composeScreen(m, 80, 25);
+  const ScreenLayout layout = compose(80, 25);
   EXPECT_NE(layout.picture.rowText(23).find("aEND"), std::string::npos);
   EXPECT_EQ(layout.picture.cursor, (CellPosition{79, 23}));
   EXPECT_EQ(layout.picture.rowText(22).substr(0, 12), "* Ada joined");
@@ -367,46 +363,42 @@ bool containsIn(const ScreenBuffer& picture, const std::string& text, df::Color 
   return cell.color == color && cell.style == style;
 }
 
-TEST(ScreenLayout, StatusLineBeginsWithTheColouredPlayerName) {
-  ScreenModel m = model();
+TEST_F(ScreenLayoutTest, StatusLineBeginsWithTheColouredPlayerName) {
   m.self_name = "Ada";
   m.self_color = df::CYAN;
-  const ScreenBuffer picture = composeScreen(m, 100, 30).picture;
+  const ScreenBuffer picture = drawn(100, 30);
   EXPECT_EQ(picture.rowText(29).rfind("  Ada   42 ms   2 players", 0), 0u) << picture.rowText(29);
   EXPECT_EQ(picture.at(2, 29).color, df::CYAN);
   EXPECT_EQ(picture.at(2, 29).style, Style::kReverse);
-  EXPECT_TRUE(containsIn(composeScreen(m, 92, 24).picture, "Ada", df::CYAN, Style::kBold))
-      << "beside the view";
+  EXPECT_TRUE(containsIn(drawn(92, 24), "Ada", df::CYAN, Style::kBold)) << "beside the view";
 }
 
-TEST(ScreenLayout, APointerShowsThePlayersOwnObject) {
-  ScreenModel m = model();
+TEST_F(ScreenLayoutTest, APointerShowsThePlayersOwnObject) {
   m.self_name = "Ada";
   m.self_color = df::CYAN;
   m.self_cell = CellPosition{40, 12};
-  ScreenBuffer picture = composeScreen(m, 80, 24).picture;
+  ScreenBuffer picture = drawn();
   EXPECT_EQ(picture.at(40, 10).ch, U'▼');
   EXPECT_EQ(picture.at(40, 12).ch, U' ') << "the object itself is not covered";
   EXPECT_TRUE(containsIn(picture, " you: Ada ", df::CYAN, Style::kReverse));
   m.self_cell = CellPosition{0, 0};
-  picture = composeScreen(m, 80, 24).picture;
+  picture = drawn();
   EXPECT_EQ(picture.at(0, 2).ch, U'▲');
   EXPECT_EQ(picture.rowText(3).rfind(" you: Ada ", 0), 0u);
   for (const int x : {-1, 0, 79, 80}) {
     for (const int y : {-1, 0, 1, 22, 23, 24}) {
       m.self_cell = CellPosition{x, y};
-      composeScreen(m, 20, 10);
-      composeScreen(m, 200, 60);
+      compose(20, 10);
+      compose(200, 60);
     }
   }
 }
 
-TEST(ScreenLayout, WideTerminalShowsPlayersChatAndHelpPanels) {
-  ScreenModel m = model();
+TEST_F(ScreenLayoutTest, WideTerminalShowsPlayersChatAndHelpPanels) {
   m.help = {"Arrows   fly", "Space    shoot"};
   m.history = {{"Bob", df::GREEN, "hi there", {}}, {"", df::WHITE, "Ada joined", {}}};
   m.chat = m.history;
-  const ScreenLayout layout = composeScreen(m, 140, 40);
+  const ScreenLayout layout = compose(140, 40);
   EXPECT_EQ(layout.placement.width, 80);
   EXPECT_EQ(layout.placement.height, 24);
   EXPECT_TRUE(layout.placement.framed);
@@ -418,24 +410,23 @@ TEST(ScreenLayout, WideTerminalShowsPlayersChatAndHelpPanels) {
   EXPECT_TRUE(contains(layout.picture, "Bob: hi there"));
   EXPECT_EQ(layout.picture.rowText(38).find("Ada joined"), std::string::npos) << "not over the game as well";
   m.status_shown = false;
-  EXPECT_FALSE(contains(composeScreen(m, 140, 40).picture, "Chat ─")) << "s takes it away, too";
+  EXPECT_FALSE(shows("Chat ─", 140, 40)) << "s takes it away, too";
   m.status_shown = true;
-  EXPECT_FALSE(contains(composeScreen(m, 107, 40).picture, "Chat ─")) << "no room";
+  EXPECT_FALSE(shows("Chat ─", 107, 40)) << "no room";
 }
 
-TEST(ScreenLayout, ChatScrollsBackOverTheGameAndBesideIt) {
-  ScreenModel m = model();
+TEST_F(ScreenLayoutTest, ChatScrollsBackOverTheGameAndBesideIt) {
   m.chat_open = true;
   for (int i = 0; i < 100; ++i) m.chat.push_back({"Bob", df::GREEN, "line " + std::to_string(i) + ".", {}});
   m.history = m.chat;
   for (const int columns : {80, 140}) {
     m.chat_scroll = 0;
-    ScreenLayout layout = composeScreen(m, columns, 40);
+    ScreenLayout layout = compose(columns, 40);
     EXPECT_TRUE(contains(layout.picture, "line 99.")) << columns;
     EXPECT_FALSE(contains(layout.picture, "line 50.")) << columns;
     while (m.chat_scroll < layout.shown.max_chat_scroll) {
       m.chat_scroll = layout.shown.max_chat_scroll;
-      layout = composeScreen(m, columns, 40);
+      layout = compose(columns, 40);
     }
     EXPECT_TRUE(contains(layout.picture, "line 0.")) << columns;
     EXPECT_FALSE(contains(layout.picture, "line 99.")) << columns;
@@ -443,8 +434,7 @@ TEST(ScreenLayout, ChatScrollsBackOverTheGameAndBesideIt) {
   }
 }
 
-TEST(ScreenLayout, ManyPlayersAndLongTextsFitTheSidePanel) {
-  ScreenModel m = model();
+TEST_F(ScreenLayoutTest, ManyPlayersAndLongTextsFitTheSidePanel) {
   m.help.assign(40, std::string(300, 'h'));
   m.players.clear();
   for (std::uint32_t i = 1; i <= 200; ++i)
@@ -453,7 +443,7 @@ TEST(ScreenLayout, ManyPlayersAndLongTextsFitTheSidePanel) {
   for (const int rows : {20, 24, 25, 60, 150}) {
     for (const bool open : {false, true}) {
       m.chat_open = open;
-      const ScreenBuffer picture = composeScreen(m, 130, rows).picture;
+      const ScreenBuffer picture = drawn(130, rows);
       EXPECT_EQ(picture.height(), rows);
       if (rows > 24) {
         EXPECT_TRUE(contains(picture, "player200")) << rows;

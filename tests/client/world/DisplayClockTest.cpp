@@ -13,8 +13,12 @@ using Time = DisplayClock::Time;
 const Time kStart = Time{} + 1h;
 constexpr auto kTick = std::chrono::microseconds(33333);
 
-TEST(DisplayClock, ExtrapolatesTheTickForAtMost250Milliseconds) {
-  DisplayClock clock(kTick);
+class DisplayClockTest : public testing::Test {
+ protected:
+  DisplayClock clock{kTick};
+};
+
+TEST_F(DisplayClockTest, ExtrapolatesTheTickForAtMost250Milliseconds) {
   clock.onSnapshot(100, kStart);
   EXPECT_EQ(clock.displayTick(kStart), 100u);
   EXPECT_EQ(clock.displayTick(kStart + kTick - 1us), 100u);
@@ -24,9 +28,8 @@ TEST(DisplayClock, ExtrapolatesTheTickForAtMost250Milliseconds) {
   EXPECT_EQ(clock.displayTick(kStart + 1h), 107u) << "frozen";
 }
 
-TEST(DisplayClock, NeverRunsBackwardsUnderJitter) {
+TEST_F(DisplayClockTest, NeverRunsBackwardsUnderJitter) {
   std::mt19937 random(3);
-  DisplayClock clock(kTick);
   std::uint32_t shown = 0;
   Time now = kStart;
   for (std::uint32_t tick = 1; tick < 3000; ++tick) {
@@ -41,9 +44,8 @@ TEST(DisplayClock, NeverRunsBackwardsUnderJitter) {
   }
 }
 
-TEST(DisplayClock, LateSnapshotsDoNotDelayTheClock) {
+TEST_F(DisplayClockTest, LateSnapshotsDoNotDelayTheClock) {
   // Every other snapshot is 20 ms late. The estimate follows the punctual ones.
-  DisplayClock clock(kTick);
   for (std::uint32_t tick = 0; tick < 100; ++tick) {
     const Time due = kStart + tick * kTick;
     const Time arrival = due + (tick % 2 == 1 ? 20ms : 0ms);
@@ -54,8 +56,7 @@ TEST(DisplayClock, LateSnapshotsDoNotDelayTheClock) {
   }
 }
 
-TEST(DisplayClock, FollowsAServerThatFallsBehind) {
-  DisplayClock clock(kTick);
+TEST_F(DisplayClockTest, FollowsAServerThatFallsBehind) {
   clock.onSnapshot(100, kStart);
   // All later snapshots are 150 ms late.
   std::uint32_t tick = 101;
@@ -67,8 +68,7 @@ TEST(DisplayClock, FollowsAServerThatFallsBehind) {
   EXPECT_EQ(clock.displayTick(now), tick - 1) << "no longer ahead";
 }
 
-TEST(DisplayClock, RestartsAfterAJump) {
-  DisplayClock clock(kTick);
+TEST_F(DisplayClockTest, RestartsAfterAJump) {
   clock.onSnapshot(100, kStart);
   EXPECT_EQ(clock.displayTick(kStart + 5s), 107u);
   clock.onSnapshot(101, kStart + 5s);
@@ -78,8 +78,7 @@ TEST(DisplayClock, RestartsAfterAJump) {
   EXPECT_EQ(clock.displayTick(kStart + 6s), 5000u);
 }
 
-TEST(DisplayClock, LateAndRepeatedTicksChangeNothing) {
-  DisplayClock clock(kTick);
+TEST_F(DisplayClockTest, LateAndRepeatedTicksChangeNothing) {
   clock.onSnapshot(100, kStart);
   clock.onSnapshot(100, kStart + 20ms);
   clock.onSnapshot(90, kStart + 25ms);
@@ -87,16 +86,14 @@ TEST(DisplayClock, LateAndRepeatedTicksChangeNothing) {
   EXPECT_EQ(clock.displayTick(kStart + kTick), 101u);
 }
 
-TEST(DisplayClock, TicksWrapAround) {
-  DisplayClock clock(kTick);
+TEST_F(DisplayClockTest, TicksWrapAround) {
   clock.onSnapshot(0xFFFFFFFF, kStart);
   EXPECT_EQ(clock.displayTick(kStart + 2 * kTick), 1u);
   clock.onSnapshot(2, kStart + 3 * kTick);
   EXPECT_EQ(clock.displayTick(kStart + 3 * kTick), 2u);
 }
 
-TEST(DisplayClock, NextTickIsInTheFuture) {
-  DisplayClock clock(kTick);
+TEST_F(DisplayClockTest, NextTickIsInTheFuture) {
   EXPECT_GT(clock.nextTick(kStart), kStart);
   clock.onSnapshot(100, kStart);
   EXPECT_EQ(clock.nextTick(kStart), kStart + kTick);

@@ -5,19 +5,21 @@
 namespace naiad {
 namespace {
 
-TEST(ResumeTokens, NameTheSessionTheyWereIssuedFor) {
+class ResumeTokensTest : public testing::Test {
+ protected:
   ResumeTokens tokens;
-  const std::string token = tokens.issue(5);
+  const std::string first = tokens.issue(5);  ///< the first token of session 5
+};
+
+TEST_F(ResumeTokensTest, NameTheSessionTheyWereIssuedFor) {
   tokens.issue(6);
-  EXPECT_EQ(token.size(), ResumeTokens::kBytes);
-  EXPECT_EQ(tokens.redeem(token), 5u);
+  EXPECT_EQ(first.size(), ResumeTokens::kBytes);
+  EXPECT_EQ(tokens.redeem(first), 5u);
   EXPECT_EQ(tokens.redeem(std::string(ResumeTokens::kBytes, 'x')), std::nullopt);
   EXPECT_EQ(tokens.redeem(""), std::nullopt);
 }
 
-TEST(ResumeTokens, HolderLookupAcceptsOnlyNewestAndConsumesNothing) {
-  ResumeTokens tokens;
-  const std::string first = tokens.issue(5);
+TEST_F(ResumeTokensTest, HolderLookupAcceptsOnlyNewestAndConsumesNothing) {
   for (int i = 0; i < 3; ++i) EXPECT_EQ(tokens.findNewest(first), 5u);
   EXPECT_EQ(tokens.redeem(first), 5u);
   const std::string second = tokens.issue(5);
@@ -27,9 +29,7 @@ TEST(ResumeTokens, HolderLookupAcceptsOnlyNewestAndConsumesNothing) {
   EXPECT_EQ(tokens.findNewest(""), std::nullopt);
 }
 
-TEST(ResumeTokens, RemainValidUntilTheNextIsConfirmed) {
-  ResumeTokens tokens;
-  const std::string first = tokens.issue(5);
+TEST_F(ResumeTokensTest, RemainValidUntilTheNextIsConfirmed) {
   ASSERT_EQ(tokens.redeem(first), 5u);
   const std::string lost = tokens.issue(5);
   ASSERT_EQ(tokens.redeem(first), 5u) << "the answer with the second may be lost";
@@ -40,9 +40,7 @@ TEST(ResumeTokens, RemainValidUntilTheNextIsConfirmed) {
   EXPECT_EQ(tokens.redeem(third), 5u);
 }
 
-TEST(ResumeTokens, ExpireOnLaterTokenUseAndOnSessionEnd) {
-  ResumeTokens tokens;
-  const std::string first = tokens.issue(5);
+TEST_F(ResumeTokensTest, ExpireOnLaterTokenUseAndOnSessionEnd) {
   ASSERT_EQ(tokens.redeem(first), 5u);
   const std::string second = tokens.issue(5);
   ASSERT_EQ(tokens.redeem(second), 5u);
@@ -54,25 +52,21 @@ TEST(ResumeTokens, ExpireOnLaterTokenUseAndOnSessionEnd) {
 }
 
 // The restored server knows only the stored hashes of the tokens.
-TEST(ResumeTokens, StayValidAfterRestoringTheirHashes) {
-  ResumeTokens killed;
-  const std::string first = killed.issue(5);
-  ASSERT_EQ(killed.redeem(first), 5u);
-  const std::string second = killed.issue(5);
-  const std::string other = killed.issue(6);
-  ResumeTokens tokens;
-  tokens.restore(1, killed.hashed(5));
-  EXPECT_EQ(tokens.find(first), 1u) << "the answer with the second may be lost";
-  EXPECT_EQ(tokens.find(second), 1u);
-  EXPECT_EQ(tokens.findNewest(second), 1u);
-  EXPECT_EQ(tokens.find(other), std::nullopt);
-  tokens.confirm(1);
-  EXPECT_EQ(tokens.find(first), std::nullopt);
+TEST_F(ResumeTokensTest, StayValidAfterRestoringTheirHashes) {
+  ASSERT_EQ(tokens.redeem(first), 5u);
+  const std::string second = tokens.issue(5);
+  const std::string other = tokens.issue(6);
+  ResumeTokens restored;
+  restored.restore(1, tokens.hashed(5));
+  EXPECT_EQ(restored.find(first), 1u) << "the answer with the second may be lost";
+  EXPECT_EQ(restored.find(second), 1u);
+  EXPECT_EQ(restored.findNewest(second), 1u);
+  EXPECT_EQ(restored.find(other), std::nullopt);
+  restored.confirm(1);
+  EXPECT_EQ(restored.find(first), std::nullopt);
 }
 
-TEST(ResumeTokens, RemainValidAfterMovingToAnotherSession) {
-  ResumeTokens tokens;
-  const std::string first = tokens.issue(5);
+TEST_F(ResumeTokensTest, RemainValidAfterMovingToAnotherSession) {
   ASSERT_EQ(tokens.redeem(first), 5u);
   tokens.move(5, 9);
   const std::string second = tokens.issue(9);
@@ -85,9 +79,7 @@ TEST(ResumeTokens, RemainValidAfterMovingToAnotherSession) {
   EXPECT_EQ(tokens.find(second), 9u);
 }
 
-TEST(ResumeTokens, ReportSessionsResumedElsewhere) {
-  ResumeTokens tokens;
-  const std::string first = tokens.issue(5);
+TEST_F(ResumeTokensTest, ReportSessionsResumedElsewhere) {
   ASSERT_EQ(tokens.redeem(first), 5u);
   tokens.markSuperseded(5);
   const std::string second = tokens.issue(5);
@@ -107,9 +99,7 @@ TEST(ResumeTokens, ReportSessionsResumedElsewhere) {
   EXPECT_FALSE(tokens.isSuperseded(first));
 }
 
-TEST(ResumeTokens, ClientRestartMayBeRetriedAfterALostAnswer) {
-  ResumeTokens tokens;
-  const std::string first = tokens.issue(5);
+TEST_F(ResumeTokensTest, ClientRestartMayBeRetriedAfterALostAnswer) {
   for (int i = 0; i < 3; ++i) {
     ASSERT_EQ(tokens.redeem(first), 5u);
     tokens.markSuperseded(5);
