@@ -20,6 +20,15 @@ class ClientSessionTest : public test::ClientSessionFixture {
   ClientSession::Time listened{};
 };
 
+/// A client that has been welcomed.
+class PlayingClientTest : public ClientSessionTest {
+ protected:
+  void SetUp() override {
+    ClientSessionTest::SetUp();
+    join();
+  }
+};
+
 TEST_F(ClientSessionTest, SaysHelloFirst) {
   ASSERT_EQ(log.sent.size(), 1u);
   ASSERT_TRUE(log.sent[0].has_hello());
@@ -35,8 +44,7 @@ TEST_F(ClientSessionTest, SaysHelloFirst) {
   EXPECT_EQ(session->state(), State::kGreeting);
 }
 
-TEST_F(ClientSessionTest, PlaysAfterTheWelcome) {
-  join();
+TEST_F(PlayingClientTest, PlaysAfterTheWelcome) {
   EXPECT_EQ(session->state(), State::kPlaying);
   EXPECT_EQ(session->welcome().player, 3u);
   EXPECT_EQ(session->welcome().tick, 33333us);
@@ -44,8 +52,7 @@ TEST_F(ClientSessionTest, PlaysAfterTheWelcome) {
   EXPECT_TRUE(last().has_ping()) << "the round trip is measured from the start";
 }
 
-TEST_F(ClientSessionTest, MissingFirstPictureEndsTheSessionWithAMessage) {
-  join();
+TEST_F(PlayingClientTest, MissingFirstPictureEndsTheSessionWithAMessage) {
   wire::ServerMessage pong;
   pong.mutable_pong()->set_token(12345);
   const auto welcomed = now;
@@ -64,8 +71,7 @@ TEST_F(ClientSessionTest, MissingFirstPictureEndsTheSessionWithAMessage) {
   EXPECT_TRUE(log.closed);
 }
 
-TEST_F(ClientSessionTest, FirstPictureDisablesThePictureTimeout) {
-  join();
+TEST_F(PlayingClientTest, FirstPictureDisablesThePictureTimeout) {
   snapshot(1, 10);
   now += EpochReplicas::kIncompleteTimeout;
   EXPECT_EQ(session->pictureWait(now), 0s);
@@ -88,8 +94,7 @@ TEST_F(ClientSessionTest, RefusalKeepsItsMessage) {
   EXPECT_TRUE(log.closed);
 }
 
-TEST_F(ClientSessionTest, GoodbyeKeepsItsSanitizedMessage) {
-  join();
+TEST_F(PlayingClientTest, GoodbyeKeepsItsSanitizedMessage) {
   wire::ServerMessage message;
   message.mutable_goodbye()->set_message("Maintenance\033[31m at nine.");
   receive(message);
@@ -98,8 +103,7 @@ TEST_F(ClientSessionTest, GoodbyeKeepsItsSanitizedMessage) {
   EXPECT_EQ(session->counters().bad_messages, 0u);
 }
 
-TEST_F(ClientSessionTest, AppliesAndAcknowledgesSnapshots) {
-  join();
+TEST_F(PlayingClientTest, AppliesAndAcknowledgesSnapshots) {
   snapshot(1, 100);
   snapshot(2, 101);
   snapshot(4, 103);
@@ -111,8 +115,7 @@ TEST_F(ClientSessionTest, AppliesAndAcknowledgesSnapshots) {
   EXPECT_TRUE(session->hasPicture(now));
 }
 
-TEST_F(ClientSessionTest, AcknowledgesEveryThirdSnapshotOrAfterADelay) {
-  join();
+TEST_F(PlayingClientTest, AcknowledgesEveryThirdSnapshotOrAfterADelay) {
   const std::size_t before = log.sent.size();
   snapshot(1, 100);
   snapshot(2, 101);
@@ -131,8 +134,7 @@ TEST_F(ClientSessionTest, AcknowledgesEveryThirdSnapshotOrAfterADelay) {
   EXPECT_EQ(lastUpdate().acks.newest, 4u);
 }
 
-TEST_F(ClientSessionTest, AnInputCarriesTheAcknowledgements) {
-  join();
+TEST_F(PlayingClientTest, AnInputCarriesTheAcknowledgements) {
   snapshot(1, 100);
   snapshot(2, 101);
   ASSERT_TRUE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
@@ -144,8 +146,7 @@ TEST_F(ClientSessionTest, AnInputCarriesTheAcknowledgements) {
   EXPECT_EQ(log.sent.size(), before) << "two since then";
 }
 
-TEST_F(ClientSessionTest, ObserverSeesTheReplicaBeforeTheSnapshot) {
-  join();
+TEST_F(PlayingClientTest, ObserverSeesTheReplicaBeforeTheSnapshot) {
   std::vector<std::pair<std::uint32_t, std::size_t>> seen;
   session->onBeforeSnapshot(
       [&](std::uint32_t tick) { seen.emplace_back(tick, session->replica().aliveCount()); });
@@ -154,8 +155,7 @@ TEST_F(ClientSessionTest, ObserverSeesTheReplicaBeforeTheSnapshot) {
   EXPECT_EQ(seen, (std::vector<std::pair<std::uint32_t, std::size_t>>{{100, 0}, {101, 1}}));
 }
 
-TEST_F(ClientSessionTest, InputsAreNumberedFromOneWithTheNewestSnapshot) {
-  join();
+TEST_F(PlayingClientTest, InputsAreNumberedFromOneWithTheNewestSnapshot) {
   snapshot(7, 100);
   EXPECT_TRUE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
   const Input key = lastInput();
@@ -184,8 +184,7 @@ TEST_F(ClientSessionTest, SixteenBitTicksAreExpandedFromTheWelcome) {
 }
 
 // The snapshot names a definition that a newer one has replaced, so it counts as lost.
-TEST_F(ClientSessionTest, AStaleSnapshotIsDroppedAndNotAcknowledged) {
-  join();
+TEST_F(PlayingClientTest, AStaleSnapshotIsDroppedAndNotAcknowledged) {
   const auto bare = [](std::uint32_t number, std::uint32_t slot, bool sets) {
     SnapshotHeader header;
     header.number = number;
@@ -214,8 +213,7 @@ TEST_F(ClientSessionTest, EarlyInputAndInvalidKeysAreNotSent) {
   EXPECT_EQ(session->counters().inputs, 0u);
 }
 
-TEST_F(ClientSessionTest, InputRateStaysWithinTheServersLimit) {
-  join();
+TEST_F(PlayingClientTest, InputRateStaysWithinTheServersLimit) {
   int sent = 0;
   for (int i = 0; i < 1000; ++i)
     sent += session->sendMouse(df::MOVED, df::Mouse::LEFT, i % 80, 1, now) ? 1 : 0;
@@ -234,8 +232,7 @@ TEST_F(ClientSessionTest, InputRateStaysWithinTheServersLimit) {
   EXPECT_GE(sent, 300 * 8);
 }
 
-TEST_F(ClientSessionTest, MeasuresTheRoundTrip) {
-  join();
+TEST_F(PlayingClientTest, MeasuresTheRoundTrip) {
   const auto answer = [this](std::chrono::milliseconds after) {
     const auto token = last().ping().token();
     now += after;
@@ -257,8 +254,7 @@ TEST_F(ClientSessionTest, MeasuresTheRoundTrip) {
   EXPECT_EQ(session->roundTrip(), 50ms);
 }
 
-TEST_F(ClientSessionTest, SendsOnePingASecond) {
-  join();
+TEST_F(PlayingClientTest, SendsOnePingASecond) {
   const std::size_t before = log.sent.size();
   for (int i = 0; i < 50; ++i) session->update(now += 100ms);
   EXPECT_EQ(log.sent.size() - before, 5u);
@@ -281,8 +277,7 @@ TEST_F(ClientSessionTest, TimeoutIgnoresTimeWhileTheProcessWasSuspended) {
   EXPECT_EQ(session->state(), State::kPlaying) << session->message();
 }
 
-TEST_F(ClientSessionTest, SilentGameTimesOutAfterFifteenSeconds) {
-  join();
+TEST_F(PlayingClientTest, SilentGameTimesOutAfterFifteenSeconds) {
   listenUntil(now + 14900ms);
   EXPECT_EQ(session->state(), State::kPlaying);
   listenUntil(now + 15s);
@@ -304,8 +299,7 @@ TEST_F(ClientSessionTest, ResumableSessionWaitsSixtySecondsForTheServer) {
   EXPECT_FALSE(session->message().empty());
 }
 
-TEST_F(ClientSessionTest, ResentWorldContinuesTheNumbering) {
-  join();
+TEST_F(PlayingClientTest, ResentWorldContinuesTheNumbering) {
   snapshot(20'000, 10);
   receive(snapshotMessage(40'000, 11, 20'000));
   receive(snapshotMessage(40'001, 12, 40'000));
@@ -325,8 +319,7 @@ TEST_F(ClientSessionTest, ResentWorldContinuesTheNumbering) {
   EXPECT_EQ(lastUpdate().acks.newest, 40'002u);
 }
 
-TEST_F(ClientSessionTest, LostServerCancelsTheDueAcknowledgement) {
-  join();
+TEST_F(PlayingClientTest, LostServerCancelsTheDueAcknowledgement) {
   snapshot(1, 100);
   ASSERT_TRUE(session->nextWake());
   session->closed(CloseReason::kPeer);
@@ -334,8 +327,7 @@ TEST_F(ClientSessionTest, LostServerCancelsTheDueAcknowledgement) {
   EXPECT_EQ(session->nextWake(), std::nullopt) << "who waits for it would never do anything else";
 }
 
-TEST_F(ClientSessionTest, LeavingSendsALeaveMessage) {
-  join();
+TEST_F(PlayingClientTest, LeavingSendsALeaveMessage) {
   session->leave();
   EXPECT_TRUE(last().has_leave());
   EXPECT_TRUE(log.closed);
@@ -344,8 +336,7 @@ TEST_F(ClientSessionTest, LeavingSendsALeaveMessage) {
   EXPECT_EQ(session->state(), State::kLeft);
 }
 
-TEST_F(ClientSessionTest, MissingSnapshotsCountAsSilenceAfterHalfASecond) {
-  join();
+TEST_F(PlayingClientTest, MissingSnapshotsCountAsSilenceAfterHalfASecond) {
   EXPECT_FALSE(session->isSilent(now + 1h)) << "before the first snapshot there is nothing to miss";
   snapshot(1, 100);
   EXPECT_FALSE(session->isSilent(now + 499ms));
@@ -355,8 +346,7 @@ TEST_F(ClientSessionTest, MissingSnapshotsCountAsSilenceAfterHalfASecond) {
   EXPECT_FALSE(session->isSilent(now));
 }
 
-TEST_F(ClientSessionTest, PendingInputsAreLimitedWhileTheServerStalls) {
-  join();
+TEST_F(PlayingClientTest, PendingInputsAreLimitedWhileTheServerStalls) {
   snapshot(1, 100);
   for (int tick = 0; tick < 300; ++tick) {
     session->sendKey(df::Keyboard::SPACE, df::KEY_DOWN, now);
@@ -373,8 +363,7 @@ TEST_F(ClientSessionTest, PendingInputsAreLimitedWhileTheServerStalls) {
   EXPECT_EQ(lastInput().id, newest + 2);
 }
 
-TEST_F(ClientSessionTest, SoundsAreDeliveredOnce) {
-  join();
+TEST_F(PlayingClientTest, SoundsAreDeliveredOnce) {
   wire::ServerMessage message;
   wire::Sound& sound = *message.mutable_sounds()->add_sounds();
   sound.set_label("\x1b[2Jfire");

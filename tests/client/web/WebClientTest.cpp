@@ -89,6 +89,11 @@ class WebClientTest : public testing::Test {
   int first = 0;
 };
 
+class PlayingWebClientTest : public WebClientTest {
+ protected:
+  void SetUp() override { play(); }
+};
+
 TEST_F(WebClientTest, HelloContainsTheRoomOfTheAddressIfValid) {
   for (const auto& [room, wanted] : {std::pair<std::string, std::string>{"arcade", "arcade"},
                                      {"a b", ""},
@@ -120,8 +125,7 @@ TEST_F(WebClientTest, JoinsShowsThePictureAndOpensASecondStream) {
   EXPECT_EQ(page.sent().front().hello().resume_token(), "\x01\xab");
 }
 
-TEST_F(WebClientTest, KeysAndPointerReachTheServer) {
-  play();
+TEST_F(PlayingWebClientTest, KeysAndPointerReachTheServer) {
   client->pressKey("ArrowLeft", "ArrowLeft", KeyEvent::Action::kPress, 0, now);
   client->pressKey("ArrowLeft", "ArrowLeft", KeyEvent::Action::kRelease, 0, now);
   client->moveMouse({10, 5, df::Mouse::LEFT, MouseEvent::Action::kPress}, now);
@@ -133,8 +137,7 @@ TEST_F(WebClientTest, KeysAndPointerReachTheServer) {
   EXPECT_TRUE(sent[2].is_mouse);
 }
 
-TEST_F(WebClientTest, HeldKeyIsReleasedWhenThePageLosesFocus) {
-  play();
+TEST_F(PlayingWebClientTest, HeldKeyIsReleasedWhenThePageLosesFocus) {
   client->pressKey("a", "KeyA", KeyEvent::Action::kPress, 0, now);
   for (int i = 0; i < 30; ++i) client->update(now += 33ms);
   EXPECT_EQ(inputs().back().action, df::KEY_DOWN);
@@ -145,8 +148,7 @@ TEST_F(WebClientTest, HeldKeyIsReleasedWhenThePageLosesFocus) {
   EXPECT_EQ(inputs().size(), count);
 }
 
-TEST_F(WebClientTest, ChatTextComesFromThePagesInputField) {
-  play();
+TEST_F(PlayingWebClientTest, ChatTextComesFromThePagesInputField) {
   client->command(U't', now);
   EXPECT_TRUE(client->isChatOpen());
   client->setChatText("Grüße");
@@ -173,8 +175,7 @@ TEST_F(WebClientTest, AnotherNameThanRequestedIsReportedAtOnce) {
   }
 }
 
-TEST_F(WebClientTest, ChatReportsWhatCannotBeShown) {
-  play();
+TEST_F(PlayingWebClientTest, ChatReportsWhatCannotBeShown) {
   for (const auto& [text, omits] :
        {std::pair<std::string, bool>{"Привет λ", false}, {"hi 李雷", true}, {"hi", false}}) {
     client->command(U't', now);  // opens the line, or only redraws it
@@ -183,16 +184,14 @@ TEST_F(WebClientTest, ChatReportsWhatCannotBeShown) {
   }
 }
 
-TEST_F(WebClientTest, HelpDoesNotMentionTerminals) {
-  play();
+TEST_F(PlayingWebClientTest, HelpDoesNotMentionTerminals) {
   client->command(U'h', now);
   EXPECT_TRUE(shows("this help"));
   EXPECT_FALSE(shows("Ctrl-Z"));
   EXPECT_FALSE(shows("terminal"));
 }
 
-TEST_F(WebClientTest, TheTokenIsKeptUntilThePlayerLeaves) {
-  play();
+TEST_F(PlayingWebClientTest, TheTokenIsKeptUntilThePlayerLeaves) {
   EXPECT_EQ(page.token, "01ab");
   client->command(U'q', now);
   EXPECT_EQ(page.token, "");
@@ -222,8 +221,7 @@ TEST_F(WebClientTest, MalformedTokenStartsNoResume) {
   }
 }
 
-TEST_F(WebClientTest, LostStreamIsReopenedToResumeTheSession) {
-  play();
+TEST_F(PlayingWebClientTest, LostStreamIsReopenedToResumeTheSession) {
   client->streams().closed(first, 1006, "");
   client->update(now += 100ms);
   EXPECT_EQ(client->state(), WebClient::State::kPlaying);
@@ -241,8 +239,7 @@ TEST_F(WebClientTest, WrongServerKeyIsFinal) {
   EXPECT_EQ(client->message(), "It has another key.");
 }
 
-TEST_F(WebClientTest, SoundsGoToThePage) {
-  play();
+TEST_F(PlayingWebClientTest, SoundsGoToThePage) {
   wire::ServerMessage message;
   wire::Sound& sound = *message.mutable_sounds()->add_sounds();
   sound.set_label("fire");

@@ -199,6 +199,16 @@ class RecoveryTest : public testing::Test {
   int reported = 0;
 };
 
+/// The round of play(), which a world continues.
+class ContinuedRoundTest : public RecoveryTest {
+ protected:
+  void SetUp() override {
+    RecoveryTest::SetUp();
+    play();
+    goOn();
+  }
+};
+
 TEST_F(RecoveryTest, FileContainsPlayersSessionsAndPressedKeys) {
   play();
   session({.player = 2, .over = true});
@@ -259,9 +269,7 @@ TEST_F(RecoveryTest, FileTruncatedAnywhereCanBeContinued) {
   }
 }
 
-TEST_F(RecoveryTest, ReplayReportsAllScoresAgain) {
-  play();
-  goOn();
+TEST_F(ContinuedRoundTest, ReplayReportsAllScoresAgain) {
   EXPECT_EQ(world->name().id, uuidText(round->header().uuid));
   executeAgain();
   ASSERT_EQ(recovered, 53u);
@@ -271,9 +279,7 @@ TEST_F(RecoveryTest, ReplayReportsAllScoresAgain) {
   EXPECT_TRUE(world->popScores().empty());
 }
 
-TEST_F(RecoveryTest, WorldIsReadyAfterAllTurnsAreReplayed) {
-  play();
-  goOn();
+TEST_F(ContinuedRoundTest, WorldIsReadyAfterAllTurnsAreReplayed) {
   world->checkProcess(1);
   EXPECT_EQ(world->recovering(), 0) << "the world has not begun";
   p_echo->ready = true;
@@ -298,9 +304,7 @@ TEST_F(RecoveryTest, WorldIsReadyAfterAllTurnsAreReplayed) {
   EXPECT_EQ(world->recovering(), std::nullopt);
 }
 
-TEST_F(RecoveryTest, JournalContinuesInTheSameFile) {
-  play();
-  goOn();
+TEST_F(ContinuedRoundTest, JournalContinuesInTheSameFile) {
   executeAgain();
   world->addInput(keyOf(2, df::Keyboard::C, df::KEY_PRESSED));
   world->tick(true, false);
@@ -317,9 +321,7 @@ TEST_F(RecoveryTest, JournalContinuesInTheSameFile) {
   EXPECT_EQ(contents.results, 55u) << "also that of the tick that the server was killed in";
 }
 
-TEST_F(RecoveryTest, InputsDuringReplayWaitForTheNextTick) {
-  play();
-  goOn();
+TEST_F(ContinuedRoundTest, InputsDuringReplayWaitForTheNextTick) {
   p_echo->ready = true;
   world->checkProcess(1);
   world->addInput({.kind = df::InputQueue::kLeave, .player = 2});
@@ -365,9 +367,7 @@ TEST_F(RecoveryTest, TurnWithDroppedKeysIsComparedWithTheFile) {
   EXPECT_EQ(said, "in tick 2 the world's output is different");
 }
 
-TEST_F(RecoveryTest, RecoveryFailsIfTheWorldCrashesDuringReplay) {
-  play();
-  goOn();
+TEST_F(ContinuedRoundTest, RecoveryFailsIfTheWorldCrashesDuringReplay) {
   p_echo->dies_at = 10;
   executeAgain();
   world->checkProcess(2);
@@ -376,9 +376,7 @@ TEST_F(RecoveryTest, RecoveryFailsIfTheWorldCrashesDuringReplay) {
   EXPECT_EQ(world->end()->why, WorldEnd::kNotRecovered);
 }
 
-TEST_F(RecoveryTest, ReplaySendsTurnsAheadAfterTheFirstAnswer) {
-  play();
-  goOn();
+TEST_F(ContinuedRoundTest, ReplaySendsTurnsAheadAfterTheFirstAnswer) {
   p_echo->ready = true;
   p_echo->ahead = 8;
   world->checkProcess(1);

@@ -82,6 +82,12 @@ class SessionTest : public testing::Test {
   Session::Clock::duration listened{};  ///< time passed in listenUntil()
 };
 
+/// A session whose client has been welcomed.
+class PlayingSessionTest : public SessionTest {
+ protected:
+  PlayingSessionTest() { greet(); }
+};
+
 TEST_F(SessionTest, IsWelcomedAfterItsHello) {
   EXPECT_EQ(line.receive_limit, kMaxHelloFrame);
   greet();
@@ -114,8 +120,7 @@ TEST_F(SessionTest, EndsIfTheMagicIsWrong) {
   EXPECT_EQ(counters.malformed_messages, 1u);
 }
 
-TEST_F(SessionTest, MalformedTextLeavesNothingInTheHostsLog) {
-  greet();
+TEST_F(PlayingSessionTest, MalformedTextLeavesNothingInTheHostsLog) {
   wire::ClientMessage chat_line;
   chat_line.mutable_chat()->set_text("hello");
   std::string bytes = chat_line.SerializeAsString();
@@ -127,8 +132,7 @@ TEST_F(SessionTest, MalformedTextLeavesNothingInTheHostsLog) {
   EXPECT_EQ(counters.malformed_messages, 1u);
 }
 
-TEST_F(SessionTest, CountsABadFrameAndIsGone) {
-  greet();
+TEST_F(PlayingSessionTest, CountsABadFrameAndIsGone) {
   line.callbacks.on_closed(CloseReason::kProtocol);
   EXPECT_EQ(session.state(), Session::State::kGone);
   EXPECT_EQ(counters.malformed_frames, 1u);
@@ -138,8 +142,7 @@ TEST_F(SessionTest, CountsABadFrameAndIsGone) {
   EXPECT_EQ(line.sent.size(), sent);
 }
 
-TEST_F(SessionTest, InputsComeInOrderAtMost16ATick) {
-  greet();
+TEST_F(PlayingSessionTest, InputsComeInOrderAtMost16ATick) {
   for (std::uint32_t id = 1; id <= 20; ++id) line.key(id);
   std::vector<std::uint32_t> first16(16);
   std::iota(first16.begin(), first16.end(), 1u);
@@ -148,8 +151,7 @@ TEST_F(SessionTest, InputsComeInOrderAtMost16ATick) {
   EXPECT_TRUE(drainInputs().empty());
 }
 
-TEST_F(SessionTest, ARepeatedOrLateInputIsIgnoredAndCounted) {
-  greet();
+TEST_F(PlayingSessionTest, ARepeatedOrLateInputIsIgnoredAndCounted) {
   for (const std::uint32_t id : {1u, 2u, 2u, 5u, 3u}) line.key(id);
   EXPECT_EQ(drainInputs(), (std::vector<std::uint32_t>{1, 2, 5}));
   line.key(5);
@@ -160,8 +162,7 @@ TEST_F(SessionTest, ARepeatedOrLateInputIsIgnoredAndCounted) {
   EXPECT_EQ(session.state(), Session::State::kPlaying);
 }
 
-TEST_F(SessionTest, EndsAtMoreInputsThanTheQueueHolds) {
-  greet();
+TEST_F(PlayingSessionTest, EndsAtMoreInputsThanTheQueueHolds) {
   for (std::uint32_t id = 1; id <= ReceivedInputs::kMaxQueued; ++id) line.key(id);
   EXPECT_EQ(session.state(), Session::State::kPlaying);
   line.key(ReceivedInputs::kMaxQueued + 1);
@@ -170,17 +171,15 @@ TEST_F(SessionTest, EndsAtMoreInputsThanTheQueueHolds) {
   EXPECT_EQ(counters.input_floods, 1u);
 }
 
-TEST_F(SessionTest, PartlyInvalidUpdateIsRejectedEntirely) {
-  greet();
+TEST_F(PlayingSessionTest, PartlyInvalidUpdateIsRejectedEntirely) {
   line.receive(inputs({keyInput(1), keyInput(2, 127)}));
   EXPECT_TRUE(ended());
   EXPECT_TRUE(drainInputs().empty());
 }
 
-class BadInput : public SessionTest, public testing::WithParamInterface<int> {};
+class BadInput : public PlayingSessionTest, public testing::WithParamInterface<int> {};
 
 TEST_P(BadInput, EndsTheSession) {
-  greet();
   wire::ClientMessage nothing;
   nothing.set_update("");
   const std::string bad[] = {"\xff\xff\xff", "", hello().SerializeAsString(), nothing.SerializeAsString(),
@@ -195,8 +194,7 @@ TEST_P(BadInput, EndsTheSession) {
 
 INSTANTIATE_TEST_SUITE_P(Session, BadInput, testing::Range(0, 5));
 
-TEST_F(SessionTest, ChatIsSanitizedAndLimitedToThreeASecond) {
-  greet();
+TEST_F(PlayingSessionTest, ChatIsSanitizedAndLimitedToThreeASecond) {
   for (int i = 0; i < 5; ++i) line.say("  line\x1b " + std::to_string(i));
   EXPECT_EQ(chat, (std::vector<std::string>{"line 0", "line 1", "line 2"}));
   EXPECT_EQ(counters.chat_dropped, 2u);
@@ -210,8 +208,7 @@ TEST_F(SessionTest, ChatIsSanitizedAndLimitedToThreeASecond) {
   EXPECT_NEAR(static_cast<double>(chat.size()), 4 + 30, 1);
 }
 
-TEST_F(SessionTest, WorldResetsAreLimitedToOncePerTwoSeconds) {
-  greet();
+TEST_F(PlayingSessionTest, WorldResetsAreLimitedToOncePerTwoSeconds) {
   ClientUpdate update;
   update.needs_reset = true;
   for (int i = 0; i < 100; ++i) line.update(update);
@@ -226,8 +223,7 @@ TEST_F(SessionTest, WorldResetsAreLimitedToOncePerTwoSeconds) {
   EXPECT_EQ(session.state(), Session::State::kPlaying);
 }
 
-TEST_F(SessionTest, ExcessChecksumsAreDroppedAndCounted) {
-  greet();
+TEST_F(PlayingSessionTest, ExcessChecksumsAreDroppedAndCounted) {
   ClientUpdate update;
   update.checksum = 1;
   for (int i = 0; i < 100; ++i) line.update(update);
@@ -240,8 +236,7 @@ TEST_F(SessionTest, ExcessChecksumsAreDroppedAndCounted) {
   EXPECT_EQ(session.state(), Session::State::kPlaying);
 }
 
-TEST_F(SessionTest, MaximumHonestMessageRateIsAccepted) {
-  greet();
+TEST_F(PlayingSessionTest, MaximumHonestMessageRateIsAccepted) {
   for (int tick = 0; tick < 3'000; ++tick, now += 33ms) {
     for (int i = 0; i < ClientActivity::kMessagesPerTick; ++i) line.update({});
     session.checkDeadlines(now);
@@ -249,8 +244,7 @@ TEST_F(SessionTest, MaximumHonestMessageRateIsAccepted) {
   EXPECT_EQ(session.state(), Session::State::kPlaying);
 }
 
-TEST_F(SessionTest, SustainedMessageFloodEndsTheSession) {
-  greet();
+TEST_F(PlayingSessionTest, SustainedMessageFloodEndsTheSession) {
   int ticks = 0;
   for (; ticks < 100 && session.state() == Session::State::kPlaying; ++ticks, now += 33ms) {
     for (int i = 0; i < 2 * ClientActivity::kMessagesPerTick; ++i) line.update({});
@@ -262,15 +256,13 @@ TEST_F(SessionTest, SustainedMessageFloodEndsTheSession) {
   EXPECT_EQ(counters.message_floods, 1u);
 }
 
-TEST_F(SessionTest, BlankChatLinesDoNotCountTowardTheLimit) {
-  greet();
+TEST_F(PlayingSessionTest, BlankChatLinesDoNotCountTowardTheLimit) {
   for (int i = 0; i < 5; ++i) line.say(" \t ");
   line.say("word");
   EXPECT_EQ(chat, std::vector<std::string>{"word"});
 }
 
-TEST_F(SessionTest, AnswersPingsAndNotesTheRoundTrip) {
-  greet();
+TEST_F(PlayingSessionTest, AnswersPingsAndNotesTheRoundTrip) {
   wire::ClientMessage ping;
   ping.mutable_ping()->set_token(0x123456789abcdef0);
   ping.mutable_ping()->set_rtt_millis(42);
@@ -282,8 +274,7 @@ TEST_F(SessionTest, AnswersPingsAndNotesTheRoundTrip) {
   EXPECT_EQ(session.rttMillis(), 99'999u);
 }
 
-TEST_F(SessionTest, LeaveIsAnsweredAndEndsTheSession) {
-  greet();
+TEST_F(PlayingSessionTest, LeaveIsAnsweredAndEndsTheSession) {
   wire::ClientMessage leave;
   leave.mutable_leave();
   line.receive(leave);
@@ -294,8 +285,7 @@ TEST_F(SessionTest, LeaveIsAnsweredAndEndsTheSession) {
   EXPECT_EQ(gone, 1);
 }
 
-TEST_F(SessionTest, TerminalResizesAreAppliedFourTimesASecond) {
-  greet();
+TEST_F(PlayingSessionTest, TerminalResizesAreAppliedFourTimesASecond) {
   test::PublishedWorld world({}, 7);
   int taken_over = 0;
   for (int i = 0; i < 100; ++i, now += 10ms) {  // the window is resized for a second
@@ -347,8 +337,7 @@ TEST_F(SessionTest, HelloNotEvaluatedInTimeIsRefusedAsBusy) {
   EXPECT_EQ(counters.login_timeouts, 1u);
 }
 
-TEST_F(SessionTest, EndsAfterFifteenSecondsOfSilence) {
-  greet();
+TEST_F(PlayingSessionTest, EndsAfterFifteenSecondsOfSilence) {
   listenUntil(session, 0s);  // restarts the clock: the hello came before
   listenUntil(session, 15s);
   EXPECT_EQ(session.state(), Session::State::kPlaying);
@@ -363,8 +352,7 @@ TEST_F(SessionTest, EndsAfterFifteenSecondsOfSilence) {
   EXPECT_EQ(counters.idle_timeouts, 1u);
 }
 
-TEST_F(SessionTest, FifteenSilentSecondsDetachAResumableSession) {
-  greet();
+TEST_F(PlayingSessionTest, FifteenSilentSecondsDetachAResumableSession) {
   session.setGrace(60s);
   listenUntil(session, 0s);  // restarts the clock
   listenUntil(session, 15s + 1ms);
@@ -380,8 +368,7 @@ TEST_F(SessionTest, FifteenSilentSecondsDetachAResumableSession) {
   EXPECT_EQ(gone, 1);
 }
 
-TEST_F(SessionTest, SkipsTicksWhileBytesAreUnsentThenCatchesUp) {
-  greet();
+TEST_F(PlayingSessionTest, SkipsTicksWhileBytesAreUnsentThenCatchesUp) {
   test::PublishedWorld world({}, 5);
   test::SnapshotReader reader;
   std::size_t read = line.sent.size();
@@ -420,8 +407,7 @@ TEST_F(SessionTest, SkipsTicksWhileBytesAreUnsentThenCatchesUp) {
   EXPECT_GT(counters.snapshots, 20u);
 }
 
-TEST_F(SessionTest, SnapshotsNameTheNewestInputThatReachedTheGame) {
-  greet();
+TEST_F(PlayingSessionTest, SnapshotsNameTheNewestInputThatReachedTheGame) {
   test::PublishedWorld world({}, 6);
   line.key(1);
   line.key(4);
