@@ -1,9 +1,7 @@
 // The command line of dfserver: mistakes are errors instead of starting a wrong server.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -238,10 +236,15 @@ TEST(HostOptions, PublicMetricsAddressNeedsAnExplicitOption) {
   EXPECT_EQ(parse({"--metrics-hosts", "a b"}, options), CommandLine::kUsageError);
 }
 
-TEST(HostOptions, PasswordReadableByAllUsersCausesAWarning) {
+class ConfigFileTest : public testing::Test {
+ protected:
+  const test::TempFolder folder;
+  const std::string path = folder / "server.conf";
+};
+
+TEST_F(ConfigFileTest, PasswordReadableByAllUsersCausesAWarning) {
   namespace fs = std::filesystem;
-  const std::string path = testing::TempDir() + "naiad_host_options-" + std::to_string(getpid()) + ".conf";
-  const auto warnings = [&path](const std::string& text, fs::perms perms) {
+  const auto warnings = [this](const std::string& text, fs::perms perms) {
     std::ofstream(path) << text;
     fs::permissions(path, perms);
     HostOptions options;
@@ -259,7 +262,6 @@ TEST(HostOptions, PasswordReadableByAllUsersCausesAWarning) {
   EXPECT_TRUE(warnings("password = sesame\n", fs::perms::owner_all).empty());
   EXPECT_TRUE(warnings("ticks = 3\n", kOpen).empty());
   EXPECT_TRUE(warnings("password = $argon2id$v=19$m=8,t=1,p=1$c2FsdHNhbHQ$aGFzaA\n", kOpen).empty());
-  std::remove(path.c_str());
 }
 
 /// Options of a game program: its df-config.txt, and an environment without the variables used here.
@@ -384,8 +386,7 @@ std::string printed(const std::vector<const char*>& arguments, CommandLine wante
 }
 
 // Checks that each line of the example is valid without its leading #, and sets the default.
-TEST(HostOptions, TheExampleOfAConfigurationHasTheDefaults) {
-  const std::string path = testing::TempDir() + "naiad-example-" + std::to_string(getpid());
+TEST_F(ConfigFileTest, TheExampleOfAConfigurationHasTheDefaults) {
   std::istringstream lines(printed({"--option-page", "config"}));
   std::ofstream example(path);
   int settings = 0;
@@ -397,11 +398,9 @@ TEST(HostOptions, TheExampleOfAConfigurationHasTheDefaults) {
   example.close();
   EXPECT_GT(settings, 25);
   EXPECT_EQ(printed({"--config", path.c_str(), "--print-config"}), printed({"--print-config"}));
-  std::remove(path.c_str());
 }
 
-TEST(HostOptions, PrintedConfigurationCanBeReadAgain) {
-  const std::string path = testing::TempDir() + "naiad-printed-" + std::to_string(getpid());
+TEST_F(ConfigFileTest, PrintedConfigurationCanBeReadAgain) {
   const std::vector<const char*> given{"--server-name", "a # \"b\"",     "--port",      "0",
                                        "--qr",          "--web-address", "https://x/#y"};
   std::vector<const char*> words = given;
@@ -410,7 +409,6 @@ TEST(HostOptions, PrintedConfigurationCanBeReadAgain) {
   EXPECT_TRUE(test::has(first, "\nport = 0\n"));
   std::ofstream(path) << first;
   EXPECT_EQ(printed({"--config", path.c_str(), "--print-config"}), first);
-  std::remove(path.c_str());
 }
 
 TEST(HostOptions, APasswordIsNotPrinted) {
@@ -419,8 +417,7 @@ TEST(HostOptions, APasswordIsNotPrinted) {
   EXPECT_TRUE(test::has(text, "# password is set, but not printed\n"));
 }
 
-TEST(HostOptions, AConfigurationIsCheckedWithoutAServer) {
-  const std::string path = testing::TempDir() + "naiad-checked-" + std::to_string(getpid());
+TEST_F(ConfigFileTest, AConfigurationIsCheckedWithoutAServer) {
   std::ofstream(path) << "prot = 1\n\nmax-players = many\n";
   testing::internal::CaptureStderr();
   HostOptions options;
@@ -430,14 +427,13 @@ TEST(HostOptions, AConfigurationIsCheckedWithoutAServer) {
   EXPECT_TRUE(test::has(said, "dfserver: " + path + ":3: max-players: "));
   const Games games;
   const test::TempFolder temp;
-  const std::string folder = temp.string();
+  const std::string state = temp.string();
   std::ofstream(path) << "port = 1\ngame = hello\n";
-  EXPECT_EQ(printed({"--config", path.c_str(), "--check-config", "--state", folder.c_str(), "--identity",
-                     folder.c_str()}),
+  EXPECT_EQ(printed({"--config", path.c_str(), "--check-config", "--state", state.c_str(), "--identity",
+                     state.c_str()}),
             "");
   std::ofstream(path) << "certificate = x\n";
   printed({"--config", path.c_str(), "--check-config"}, CommandLine::kUsageError);
-  std::remove(path.c_str());
 }
 
 TEST(HostOptions, UnknownEnvironmentVariableCausesAWarning) {

@@ -17,9 +17,9 @@ using test::cellsAt;
 using test::DirectSender;
 
 /// The state of a client whose player looks at an empty world.
-class Alone {
- public:
-  Alone() {
+class PerClientStateTest : public testing::Test {
+ protected:
+  PerClientStateTest() {
     m_view.boundary = {cellsAt(0, 0), cellsAt(80, 24)};
     player.id = 1;
     m_view.players.push_back(player);
@@ -55,82 +55,76 @@ class Alone {
   KnownObjects m_known;
 };
 
-TEST(PerClientState, WorldViewAndOriginComeFirstAndOnce) {
-  Alone scene;
-  Records records = scene.tick();
-  EXPECT_TRUE(scene.sent_any);
+TEST_F(PerClientStateTest, WorldViewAndOriginComeFirstAndOnce) {
+  Records records = tick();
+  EXPECT_TRUE(sent_any);
   EXPECT_EQ(records.worlds.size(), 1u);
   EXPECT_EQ(records.views.size(), 1u);
   EXPECT_EQ(records.origins.size(), 1u);
   EXPECT_TRUE(records.texts.empty());
-  EXPECT_FALSE(scene.state.hasPending());
-  records = scene.tick();
-  EXPECT_FALSE(scene.sent_any);
+  EXPECT_FALSE(state.hasPending());
+  records = tick();
+  EXPECT_FALSE(sent_any);
   EXPECT_TRUE(records.worlds.empty());
 }
 
-TEST(PerClientState, OnlyTheNewestSendingIsRequeuedWhenLost) {
-  Alone scene;
-  scene.tick();
-  scene.say("old");
-  scene.tick();
-  scene.say("new");
-  scene.tick();
-  EXPECT_FALSE(scene.state.requeueLost(2)) << "the next one replaced it";
-  EXPECT_FALSE(scene.state.hasPending());
-  EXPECT_TRUE(scene.state.requeueLost(3));
-  EXPECT_EQ(scene.tick().texts.at(0).text, "new");
+TEST_F(PerClientStateTest, OnlyTheNewestSendingIsRequeuedWhenLost) {
+  tick();
+  say("old");
+  tick();
+  say("new");
+  tick();
+  EXPECT_FALSE(state.requeueLost(2)) << "the next one replaced it";
+  EXPECT_FALSE(state.hasPending());
+  EXPECT_TRUE(state.requeueLost(3));
+  EXPECT_EQ(tick().texts.at(0).text, "new");
 }
 
-TEST(PerClientState, APartThatDoesNotFitWaits) {
-  Alone scene;
-  const Records records = scene.tick(60);
-  EXPECT_FALSE(scene.sent_any);
+TEST_F(PerClientStateTest, APartThatDoesNotFitWaits) {
+  const Records records = tick(60);
+  EXPECT_FALSE(sent_any);
   EXPECT_TRUE(records.worlds.empty());
-  EXPECT_TRUE(scene.state.hasPending());
-  EXPECT_EQ(scene.tick().worlds.size(), 1u);
+  EXPECT_TRUE(state.hasPending());
+  EXPECT_EQ(tick().worlds.size(), 1u);
 }
 
-TEST(PerClientState, ARepeatedPartIsSentOnceMore) {
-  Alone scene;
-  scene.tick();
-  scene.say("quick");
-  EXPECT_EQ(scene.tick(kMaxDatagramSnapshot, true).texts.size(), 1u);
-  EXPECT_EQ(scene.tick(kMaxDatagramSnapshot, true).texts.size(), 1u);
-  EXPECT_EQ(scene.tick(kMaxDatagramSnapshot, true).texts.size(), 0u);
+TEST_F(PerClientStateTest, ARepeatedPartIsSentOnceMore) {
+  tick();
+  say("quick");
+  EXPECT_EQ(tick(kMaxDatagramSnapshot, true).texts.size(), 1u);
+  EXPECT_EQ(tick(kMaxDatagramSnapshot, true).texts.size(), 1u);
+  EXPECT_EQ(tick(kMaxDatagramSnapshot, true).texts.size(), 0u);
 }
 
-TEST(PerClientState, WhatHasArrivedIsNotRepeated) {
-  Alone scene;
-  scene.tick();
-  scene.say("quick");
-  scene.tick(kMaxDatagramSnapshot, true);
-  scene.state.confirmArrival(scene.number, false);
-  EXPECT_TRUE(scene.tick(kMaxDatagramSnapshot, true).texts.empty());
+TEST_F(PerClientStateTest, WhatHasArrivedIsNotRepeated) {
+  tick();
+  say("quick");
+  tick(kMaxDatagramSnapshot, true);
+  state.confirmArrival(number, false);
+  EXPECT_TRUE(tick(kMaxDatagramSnapshot, true).texts.empty());
 }
 
-TEST(PerClientState, EverySnapshotNamesTheInputUntilOneHasArrived) {
-  Alone scene;
-  scene.tick();
-  EXPECT_FALSE(scene.has_input);
-  scene.state.setNewestInput(7, 2);
+TEST_F(PerClientStateTest, EverySnapshotNamesTheInputUntilOneHasArrived) {
+  tick();
+  EXPECT_FALSE(has_input);
+  state.setNewestInput(7, 2);
   for (int i = 0; i < 3; ++i) {
-    scene.tick();
-    EXPECT_TRUE(scene.has_input);
+    tick();
+    EXPECT_TRUE(has_input);
   }
-  scene.state.confirmArrival(1, false);
-  scene.state.confirmArrival(scene.number, true);
-  scene.tick();
-  EXPECT_TRUE(scene.has_input) << "neither an older one nor a probe named it";
-  scene.state.confirmArrival(scene.number, false);
-  scene.tick();
-  EXPECT_FALSE(scene.has_input);
+  state.confirmArrival(1, false);
+  state.confirmArrival(number, true);
+  tick();
+  EXPECT_TRUE(has_input) << "neither an older one nor a probe named it";
+  state.confirmArrival(number, false);
+  tick();
+  EXPECT_FALSE(has_input);
 }
 
 /// A player whose view (80 by 24, in a wide world) follows the only object.
-class Following {
- public:
-  Following() {
+class FollowingTest : public testing::Test {
+ protected:
+  FollowingTest() {
     direct.view().boundary = {cellsAt(0, 0), cellsAt(400, 24)};
     direct.player.followed = {0, 1};
     direct.player.view_corner = cellsAt(60, 0);
@@ -166,25 +160,24 @@ class Following {
   df::ObjectFacts m_facts;
 };
 
-TEST(PerClientState, ViewFollowsNewObjectBeforeOldDeathIsConfirmed) {
-  Following scene;
-  scene.tick(100, 0);
-  scene.becomeAnother();
+TEST_F(FollowingTest, ViewFollowsNewObjectBeforeOldDeathIsConfirmed) {
+  tick(100, 0);
+  becomeAnother();
   for (int i = 0; i < 20; ++i) {  // the death is not acknowledged
-    scene.tick(100 + 3 * i, 3, false);
-    EXPECT_EQ(scene.direct.reader().aliveCount(), 1u);
-    scene.expectSameView();
+    tick(100 + 3 * i, 3, false);
+    EXPECT_EQ(direct.reader().aliveCount(), 1u);
+    expectSameView();
   }
-  scene.tick(160, 3);
-  scene.tick(163, 3);
-  EXPECT_EQ(scene.direct.reader().aliveCount(), 1u);
-  scene.expectSameView();
+  tick(160, 3);
+  tick(163, 3);
+  EXPECT_EQ(direct.reader().aliveCount(), 1u);
+  expectSameView();
 }
 
 /// A player who steers the only object by declared controls, and the client's replica.
-class Steering {
- public:
-  Steering() {
+class SteeringTest : public testing::Test {
+ protected:
+  SteeringTest() {
     m_table.rows.resize(1);
     m_table.rows[0].effect = df::ControlEffect::kDrive;
     m_table.rows[0].value = cellsAt(1, 0);
@@ -235,64 +228,59 @@ class Steering {
   df::ObjectFacts m_facts;
 };
 
-TEST(PerClientState, ControlStateIsSentOnlyWhenUnpredictable) {
-  Steering scene;
-  EXPECT_TRUE(scene.tick({}));
-  EXPECT_EQ(scene.replica.controlTable(), scene.table());
-  EXPECT_EQ(scene.replica.controlNumber(), 1u);
-  scene.expectKnown();
-  for (int i = 0; i < 40; ++i) EXPECT_FALSE(scene.tick({})) << "at rest, tick " << i;
-  EXPECT_TRUE(scene.tick(cellsAt(1, 0)));
+TEST_F(SteeringTest, ControlStateIsSentOnlyWhenUnpredictable) {
+  EXPECT_TRUE(tick({}));
+  EXPECT_EQ(replica.controlTable(), table());
+  EXPECT_EQ(replica.controlNumber(), 1u);
+  expectKnown();
+  for (int i = 0; i < 40; ++i) EXPECT_FALSE(tick({})) << "at rest, tick " << i;
+  EXPECT_TRUE(tick(cellsAt(1, 0)));
   for (int i = 0; i < 30; ++i) {
-    EXPECT_FALSE(scene.tick(cellsAt(1, 0))) << "straight on, tick " << i;
-    scene.expectKnown();
+    EXPECT_FALSE(tick(cellsAt(1, 0))) << "straight on, tick " << i;
+    expectKnown();
   }
-  EXPECT_TRUE(scene.tick(cellsAt(1, 0))) << "the longest coasting";
-  EXPECT_EQ(scene.replica.controlTableNumber(), 1u) << "the table came once";
+  EXPECT_TRUE(tick(cellsAt(1, 0))) << "the longest coasting";
+  EXPECT_EQ(replica.controlTableNumber(), 1u) << "the table came once";
 }
 
-TEST(PerClientState, AnInputThatChangedNothingIsConfirmedToo) {
-  Steering scene;
-  scene.tick({});
-  scene.direct.sender.setNewestInput(7, scene.direct.publisher.tick() + 1);
-  EXPECT_TRUE(scene.tick({}));
-  EXPECT_EQ(scene.replica.control().newest_input, 7u);
-  EXPECT_FALSE(scene.tick({}));
+TEST_F(SteeringTest, AnInputThatChangedNothingIsConfirmedToo) {
+  tick({});
+  direct.sender.setNewestInput(7, direct.publisher.tick() + 1);
+  EXPECT_TRUE(tick({}));
+  EXPECT_EQ(replica.control().newest_input, 7u);
+  EXPECT_FALSE(tick({}));
 }
 
-TEST(PerClientState, LostControlsAreSentAgain) {
-  Steering scene;
-  scene.tick({}, false);
-  for (int i = 0; i < 5; ++i) scene.tick({}, false);
+TEST_F(SteeringTest, LostControlsAreSentAgain) {
+  tick({}, false);
+  for (int i = 0; i < 5; ++i) tick({}, false);
   bool sent = false;
-  for (int i = 0; i < 40; ++i) sent = scene.tick(cellsAt(i % 7 == 0 ? 1 : 0, 0)) || sent;
+  for (int i = 0; i < 40; ++i) sent = tick(cellsAt(i % 7 == 0 ? 1 : 0, 0)) || sent;
   EXPECT_TRUE(sent);
-  EXPECT_EQ(scene.replica.controlTable(), scene.table());
-  scene.expectKnown();
+  EXPECT_EQ(replica.controlTable(), table());
+  expectKnown();
 }
 
-TEST(PerClientState, EndOfControlsIsSentAsAnEmptyTable) {
-  Steering scene;
-  scene.tick({});
-  scene.steering() = {};
-  scene.tick({});
-  EXPECT_TRUE(scene.replica.controlTable().rows.empty());
-  EXPECT_EQ(scene.replica.controlTableNumber(), 2u);
+TEST_F(SteeringTest, EndOfControlsIsSentAsAnEmptyTable) {
+  tick({});
+  steering() = {};
+  tick({});
+  EXPECT_TRUE(replica.controlTable().rows.empty());
+  EXPECT_EQ(replica.controlTableNumber(), 2u);
 }
 
-TEST(PerClientState, ControlRecordOfAMoveFitsIn8Bytes) {
-  Steering scene;
-  scene.tick({});
-  for (int i = 0; i < 10; ++i) scene.tick({});
-  scene.direct.sender.setNewestInput(7, scene.direct.publisher.tick() + 1);
-  const std::uint32_t before = scene.replica.controlNumber();
+TEST_F(SteeringTest, ControlRecordOfAMoveFitsIn8Bytes) {
+  tick({});
+  for (int i = 0; i < 10; ++i) tick({});
+  direct.sender.setNewestInput(7, direct.publisher.tick() + 1);
+  const std::uint32_t before = replica.controlNumber();
   BitWriter bits;
-  ASSERT_TRUE(scene.tick(cellsAt(1, 0)));
-  ASSERT_GT(scene.replica.controlNumber(), before);
+  ASSERT_TRUE(tick(cellsAt(1, 0)));
+  ASSERT_GT(replica.controlNumber(), before);
   Origin origin;
   origin.x_bits = 7;
   origin.y_bits = 5;
-  writeControlRecord(bits, scene.replica.control(), origin);
+  writeControlRecord(bits, replica.control(), origin);
   EXPECT_LE(bits.byteCount(), 8u);
 }
 
