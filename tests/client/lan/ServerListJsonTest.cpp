@@ -99,18 +99,6 @@ TEST(ServerListJson, DepthIsBounded) {
   EXPECT_TRUE(readServerList("[{\"a\":[[[[[1]]]]]}]"));
 }
 
-TEST(ServerListJson, ListLengthIsLimited) {
-  std::string json = "[";
-  for (int i = 0; i < 1000; ++i) {
-    std::string key = kListKey;
-    key[0] = static_cast<char>('a' + i % 26);
-    key[1] = static_cast<char>('a' + i / 26 % 26);
-    key[2] = static_cast<char>('a' + i / 676);
-    json += (i > 0 ? "," : "") + ("{\"link\": \"naiad://host" + std::to_string(i) + "#" + key + "\"}");
-  }
-  EXPECT_EQ(serversOf(json + "]").size(), DiscoveredServers::kMax);
-}
-
 TEST(ServerListJson, MutatedListsAreRejectedOrSafe) {
   SplitMix64 random(5);
   const std::string json =
