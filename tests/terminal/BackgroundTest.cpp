@@ -1,7 +1,9 @@
-// The background colour of a game on the terminal of the real dfclient.
+// The background colour and the sounds of a game on the terminal of the real dfclient.
 #include <gtest/gtest.h>
 
-#include "FakeServerFixture.h"
+#include <algorithm>
+
+#include "FakeServer.h"
 #include "shared/replica/SnapshotCodec.h"
 
 namespace naiad::test {
@@ -42,6 +44,38 @@ TEST_F(BackgroundTest, NoColorDisablesTheBackground) {
   server.send(chat);
   ASSERT_TRUE(terminal.waitFor("after-that")) << terminal.output();
   EXPECT_FALSE(has(terminal.output(), "\033[44m"));
+}
+
+using TerminalSoundTest = FakeServerFixture;
+
+/// Fifty sounds within a moment, then a chat line that was sent after them.
+TEST_F(TerminalSoundTest, ModesDecideOnTheNoteAndTheBell) {
+  const struct {
+    const char* mode;
+    bool has_note;
+    bool has_bell;
+  } rows[] = {{"note", true, false}, {"bell", true, true}, {"off", false, false}, {nullptr, true, false}};
+  for (const auto& row : rows) {
+    SCOPED_TRACE(row.mode != nullptr ? row.mode : "the default");
+    PtyTerminal::Options with = options();
+    if (row.mode != nullptr) with.command.insert(with.command.end(), {"--sound", row.mode});
+    PtyTerminal terminal(with);
+    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
+    terminal.forget();
+    for (int i = 0; i < 50; ++i) {
+      wire::ServerMessage message;
+      message.mutable_sounds()->add_sounds()->set_label("pew");
+      server.send(message);
+    }
+    wire::ServerMessage chat;
+    chat.mutable_chat()->set_text("that-was-loud");
+    server.send(chat);
+    ASSERT_TRUE(terminal.waitFor("that-was-loud")) << terminal.output();
+    EXPECT_TRUE(!row.has_note || terminal.waitFor("sound: pew"));
+    EXPECT_TRUE(!row.has_bell || terminal.waitFor("\a"));
+    EXPECT_EQ(has(terminal.output(), "pew"), row.has_note);
+    EXPECT_LE(std::ranges::count(terminal.output(), '\a'), row.has_bell ? 3 : 0);
+  }
 }
 
 }  // namespace

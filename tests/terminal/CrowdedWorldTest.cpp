@@ -7,7 +7,7 @@
 #include <chrono>
 #include <vector>
 
-#include "FakeServerFixture.h"
+#include "FakeServer.h"
 #include "shared/values/Keyboard.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/support/CellsAt.h"

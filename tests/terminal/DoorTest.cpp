@@ -1,10 +1,9 @@
 // The ssh door with a real sshd on loopback: deploy/door sets it up, and ssh connects through it.
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <signal.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
+#include <asio/io_context.hpp>
+#include <asio/ip/tcp.hpp>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -20,18 +19,13 @@ namespace naiad::test {
 namespace {
 
 namespace fs = std::filesystem;
+using asio::ip::tcp;
 
 /// Returns a port that was free a moment ago.
 std::string freePort() {
-  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  const bool good = ::bind(socket, reinterpret_cast<sockaddr*>(&address), size) == 0 &&
-                    ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) == 0;
-  ::close(socket);
-  return good ? std::to_string(ntohs(address.sin_port)) : "0";
+  asio::io_context context;
+  const tcp::acceptor acceptor(context, {asio::ip::address_v4::loopback(), 0});
+  return std::to_string(acceptor.local_endpoint().port());
 }
 
 std::string firstLine(const std::string& command) {
@@ -324,19 +318,14 @@ TEST_F(DoorTest, VisitorsChooseOnlyAmongTheListedGames) {
 
 TEST_F(DoorTest, SilentConnectionsDoNotCloseIt) {
   open();
-  std::vector<int> sockets;
-  for (int i = 0; i < 30; ++i) {
-    sockets.push_back(::socket(AF_INET, SOCK_STREAM, 0));
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    address.sin_port = htons(static_cast<std::uint16_t>(std::stoi(m_port)));
-    ASSERT_EQ(::connect(sockets.back(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-  }
+  asio::io_context context;
+  std::vector<tcp::socket> sockets;
+  const tcp::endpoint silent(asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(std::stoi(m_port)));
+  for (int i = 0; i < 30; ++i) sockets.emplace_back(context).connect(silent);
   // Uses another address, because silent connections are limited per address.
   PtyTerminal* bob = visit("bob", {"-b", "127.0.0.2"});
   const bool in = bob->waitFor("Your name?");
-  for (const int socket : sockets) ::close(socket);
+  sockets.clear();
   if (!in && has(m_door->output(), "Operation not permitted"))
     GTEST_SKIP() << "this sshd gives no terminals here";
   EXPECT_TRUE(in) << bob->output();

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "FakeServerFixture.h"
+#include "FakeServer.h"
 #include "shared/values/Canvas.h"
 #include "tests/support/HostileTexts.h"
 

@@ -3,7 +3,7 @@
 #include <signal.h>
 #include <sys/wait.h>
 
-#include "FakeServerFixture.h"
+#include "FakeServer.h"
 #include "shared/values/Keyboard.h"
 
 namespace naiad::test {

@@ -12,7 +12,7 @@
 #include <regex>
 #include <string>
 
-#include "FakeServerFixture.h"
+#include "FakeServer.h"
 #include "tests/support/Sanitizers.h"
 
 namespace naiad::test {

@@ -1,13 +1,17 @@
-// The real dfclient checks TERM before it connects to a server.
+// The real dfclient checks TERM before it connects to a server. It plays on terminals of every size that a
+// visitor can request.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <regex>
 #include <string>
+#include <utility>
 
-#include "FakeServerFixture.h"
+#include "FakeServer.h"
+#include "tests/support/Sanitizers.h"
 #include "tests/support/TempFolder.h"
 
 namespace naiad::test {
@@ -19,6 +23,16 @@ class TerminalTypeTest : public FakeServerFixture {
     PtyTerminal::Options options = this->options();
     options.environment["TERM"] = term;
     return options;
+  }
+  /// Makes the server show "WV" in blue, and waits until the terminal does.
+  void drawBlue(PtyTerminal& terminal) {
+    ObjectState state;
+    state.motion = {100, {df::fromCells(30), df::fromCells(15)}, {}, {}};
+    state.look.sequence = {{Glyph{0, 0, U'W', df::BLUE}, Glyph{256, 0, U'V', df::BLUE}}};
+    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
+    terminal.forget();
+    server.sendWorld({state});
+    ASSERT_TRUE(terminal.waitFor("WV")) << terminal.output();
   }
 };
 
@@ -52,16 +66,10 @@ TEST_F(TerminalTypeTest, TypeNameIsSanitized) {
 }
 
 TEST_F(TerminalTypeTest, DarkBlueIsDrawnBright) {
-  ObjectState state;
-  state.motion = {100, {df::fromCells(30), df::fromCells(15)}, {}, {}};
-  state.look.sequence = {{Glyph{0, 0, U'W', df::BLUE}, Glyph{256, 0, U'V', df::BLUE}}};
   for (const auto& [p_term, p_sequence] :
        {std::pair{"xterm-256color", "\033[94mWV"}, {"xterm", ";1m\033[34mWV"}}) {
     PtyTerminal terminal(with(p_term));
-    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
-    terminal.forget();
-    server.sendWorld({state});
-    ASSERT_TRUE(terminal.waitFor("WV")) << terminal.output();
+    ASSERT_NO_FATAL_FAILURE(drawBlue(terminal));
     EXPECT_FALSE(has(terminal.output(), "not known"));
     EXPECT_TRUE(has(terminal.output(), p_sequence)) << ::testing::PrintToString(terminal.newOutput());
   }
@@ -86,19 +94,13 @@ void compileDirectTerminal(const std::string& folder, int palette) {
 }
 
 TEST_F(TerminalTypeTest, DirectColorTerminalsGetTrueColors) {
-  ObjectState state;
-  state.motion = {100, {df::fromCells(30), df::fromCells(15)}, {}, {}};
-  state.look.sequence = {{Glyph{0, 0, U'W', df::BLUE}, Glyph{256, 0, U'V', df::BLUE}}};
   for (const int palette : {8, 256}) {
     PtyTerminal::Options with = this->with("naiad-direct");
     const TempFolder folder;
     compileDirectTerminal(folder.string(), palette);
     with.environment["TERMINFO"] = folder.string();
     PtyTerminal terminal(with);
-    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
-    terminal.forget();
-    server.sendWorld({state});
-    ASSERT_TRUE(terminal.waitFor("WV")) << terminal.output();
+    ASSERT_NO_FATAL_FAILURE(drawBlue(terminal));
     EXPECT_TRUE(has(terminal.output(), "38:2::122:162:255mWV"))
         << palette << testing::PrintToString(terminal.newOutput());
     // Each mixture is bright enough to be read.
@@ -121,6 +123,90 @@ TEST_F(TerminalTypeTest, PastedTextWaitsInTheChatLine) {
   EXPECT_TRUE(server.hasReceived([](const wire::ClientMessage& m) {
     return m.has_chat() && m.chat().text() == "see https://example.org/a and more!";
   }));
+}
+
+/// Returns an entry of /proc/PID/status, in MB: "VmRSS:" is resident memory, "VmData:" what a door limits.
+int megabytes(pid_t process, const std::string& entry) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with(entry)) return std::stoi(line.substr(entry.size())) / 1024;
+  return -1;
+}
+
+class TerminalSizeTest : public FakeServerFixture {
+ protected:
+  PtyTerminal::Options sized(int columns, int rows) const {
+    PtyTerminal::Options options = this->options();
+    options.columns = columns;
+    options.rows = rows;
+    return options;
+  }
+  static void leave(PtyTerminal& terminal) {
+    terminal.type("\x03");
+    EXPECT_NE(terminal.waitForExit(), -1);
+  }
+};
+
+constexpr int kMegabytes = 40;      ///< limit of a client's resident memory, whatever the terminal size
+constexpr int kDataMegabytes = 64;  ///< limit of its data: half of what a door allows
+constexpr std::pair<int, int> kLarge[] = {{65535, 65535}, {3000, 250}, {65535, 1}, {1, 65535}};
+
+TEST_F(TerminalSizeTest, ALargeTerminalTakesBoundedMemory) {
+  if (kSanitized) GTEST_SKIP() << "a sanitizer takes memory of its own";
+  for (const auto& [columns, rows] : kLarge) {
+    PtyTerminal terminal(sized(columns, rows));
+    ASSERT_TRUE(terminal.waitFor("\033[?u")) << columns << " x " << rows;
+    EXPECT_LT(megabytes(terminal.pid(), "VmRSS:"), kMegabytes) << columns << " x " << rows;
+    EXPECT_LT(megabytes(terminal.pid(), "VmData:"), kDataMegabytes) << columns << " x " << rows;
+    leave(terminal);
+  }
+}
+
+TEST_F(TerminalSizeTest, GrowingWindowTakesBoundedMemory) {
+  if (kSanitized) GTEST_SKIP() << "a sanitizer takes memory of its own";
+  PtyTerminal terminal(sized(100, 30));
+  ASSERT_TRUE(terminal.waitFor("NAIAD-HERE"));
+  for (const auto& [columns, rows] : kLarge) {
+    terminal.resize(columns, rows);
+    // The client reports the new size after it has allocated the memory.
+    const auto is_resize = [columns = columns, rows = rows](const wire::ClientMessage& m) {
+      return m.has_resize() && static_cast<int>(m.resize().columns()) == std::min(columns, 640) &&
+             static_cast<int>(m.resize().rows()) == std::min(rows, 256);
+    };
+    ASSERT_TRUE(server.hasReceived(is_resize)) << columns << " x " << rows;
+    EXPECT_LT(megabytes(terminal.pid(), "VmRSS:"), kMegabytes) << columns << " x " << rows;
+  }
+  leave(terminal);
+}
+
+// Some terminal descriptions have no size.
+TEST_F(TerminalSizeTest, EveryTerminalTypeReportsItsRealSize) {
+  for (const char* type : {"linux", "vt100", "xterm-256color", "tmux-256color"}) {
+    PtyTerminal::Options typed = sized(100, 30);
+    typed.environment["TERM"] = type;
+    typed.environment["COLUMNS"] = "40";  // exported by the user from another terminal
+    typed.environment["LINES"] = "10";
+    PtyTerminal terminal(typed);
+    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << type << terminal.output();
+    EXPECT_TRUE(server.hasReceived([](const wire::ClientMessage& m) {
+      return m.has_hello() && m.hello().columns() == 100 && m.hello().rows() == 30;
+    })) << type;
+    leave(terminal);
+  }
+}
+
+// The terminal itself has no size here, so COLUMNS and LINES are used.
+TEST_F(TerminalSizeTest, InvalidColumnsAndLinesTakeBoundedMemory) {
+  if (kSanitized) GTEST_SKIP() << "a sanitizer takes memory of its own";
+  for (const char* number : {"30000", "99999999999999999999", "-5", "x"}) {
+    PtyTerminal::Options without = sized(0, 0);
+    without.environment["COLUMNS"] = number;
+    without.environment["LINES"] = number;
+    PtyTerminal terminal(without);
+    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << number;
+    EXPECT_LT(megabytes(terminal.pid(), "VmRSS:"), kMegabytes) << number;
+    leave(terminal);
+  }
 }
 
 }  // namespace
