@@ -44,7 +44,7 @@ class AdminTest : public LoopbackFixture {
     return setup;
   }
   bool reads(TestClient& client, const std::string& text) {
-    return serveUntil(context, {&client}, [&] { return hasRead(client, text); });
+    return serve(client, [&] { return hasRead(client, text); });
   }
   /// Repeats a chat line until it is answered, because lines beyond the limits of a player and an address are
   /// dropped.
@@ -58,8 +58,8 @@ class AdminTest : public LoopbackFixture {
     };
     for (int tries = 0; tries < 20; ++tries) {
       client.session().sendChat(line);
-      const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
-      serveUntil(context, {&client}, [&] { return answered() || std::chrono::steady_clock::now() > end; });
+      const auto end = Clock::now() + std::chrono::seconds(1);
+      serve(client, [&] { return answered() || Clock::now() > end; });
       if (answered()) return true;
     }
     return false;
@@ -82,7 +82,7 @@ TEST_F(AdminTest, KickVoidsTokenAndRemovesPlayerWithinTwoTicks) {
   ASSERT_TRUE(joins(ann));
   const std::uint32_t player = ann.player();
   const std::uint32_t joined = ann.newestTick();
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > joined + 5; }));
+  ASSERT_TRUE(serve(ann, [&] { return ann.newestTick() > joined + 5; }));
   ASSERT_TRUE(server.truth(joined + 2, player)) << "they are in the world";
   const std::string answer = ask(command("kick", R"("player":"ann","reason":"too loud")"));
   ASSERT_EQ(answer, R"({"ok":true,"text":"ann was removed."})");
@@ -171,10 +171,10 @@ TEST_F(CtlTest, CommandsShowStateAndActOnPlayers) {
   const auto status = ctl("status");
   EXPECT_TRUE(has(status.second, "connected: 1"));
   EXPECT_EQ(ctl("say hello there").first, 0);
-  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return hasRead(ann, "hello there"); }));
+  EXPECT_TRUE(serve(ann, [&] { return hasRead(ann, "hello there"); }));
   EXPECT_EQ(ctl("kick ann").first, 0);
-  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
-  EXPECT_TRUE(serveUntil(context, {&ann}, [&] {
+  EXPECT_TRUE(serve(ann, [&] { return ann.connection().isOver(); }));
+  EXPECT_TRUE(serve(ann, [&] {
     const std::string log = server.log();
     return log.find("admin: user ") != std::string::npos && log.find("kick \"ann\"") != std::string::npos;
   })) << server.log();
@@ -206,20 +206,6 @@ TEST_F(CtlTest, ChangedPlayerLimitTakesEffect) {
   EXPECT_EQ(ctl("set max-players 200").first, 0) << "more than it began with";
   TestClient cat(context, server.port(), home.player("cat"));
   EXPECT_TRUE(joins(cat));
-}
-
-TEST(CtlOfADamagedServer, InvalidBanFileStopsTheStart) {
-  const Home home;
-  std::filesystem::create_directory(home.identity("state"));
-  std::ofstream(home.identity("state") / "bans.sqlite3") << "nothing that SQLite wrote";
-  const std::string line = std::string(NAIAD_BINARY_DIR) +
-                           "/dfserver --game hello --address 127.0.0.1 --port 0 --control off --ticks 1 "
-                           "--identity " +
-                           home.identity("identity").string() + " --state " +
-                           home.identity("state").string() + " 2>&1 </dev/null";
-  const auto [code, output] = runProgram(line);
-  EXPECT_EQ(code, 5) << output;
-  EXPECT_TRUE(has(output, "ban file"));
 }
 
 // ---- in the chat ------------------------------------------------------------------------------------------
@@ -370,6 +356,16 @@ TEST(ServerStart, SecondOneSaysHowToJoinTheFirst) {
   EXPECT_TRUE(has(output, "already running there; join it with: dfclient naiad://127.0.0.1:" + port + "#"));
 }
 
+TEST(CtlOfADamagedServer, InvalidBanFileStopsTheStart) {
+  const TempFolder home;
+  const std::string state = home / "state";
+  std::filesystem::create_directory(state);
+  std::ofstream(state + "/bans.sqlite3") << "nothing that SQLite wrote";
+  const auto [code, output] = runServer(home, "--port 0 --control off --ticks 1 --state " + state);
+  EXPECT_EQ(code, 5) << output;
+  EXPECT_TRUE(has(output, "ban file"));
+}
+
 // ---- the visitors' socket ---------------------------------------------------------------------------------
 
 class VisitorsTest : public AdminTest {
@@ -402,7 +398,7 @@ TEST_F(VisitorsTest, NoHeaderIsReadFromTcp) {
   socket.non_blocking(true);
   std::string heard;
   TestClient ann(context, server.port(), home.player("ann"));
-  EXPECT_TRUE(serveUntil(context, {&ann}, [&] {
+  EXPECT_TRUE(serve(ann, [&] {
     char bytes[256];
     std::error_code error;
     const std::size_t size = socket.read_some(asio::buffer(bytes), error);

@@ -38,8 +38,7 @@ TEST_F(Company, StalledClientCatchesUpWhenItReadsAgain) {
   TestClient mud(asleep, server.port(), "mud");
   ASSERT_TRUE(serveUntil(asleep, {&mud}, [&] { return mud.joined(); }));
   const std::uint32_t begin = mud.newestTick();
-  ASSERT_TRUE(
-      serveUntil(context, {&ann}, [&] { return ann.joined() && ann.newestTick() > begin + kFiveSeconds; }));
+  ASSERT_TRUE(serve(ann, [&] { return ann.joined() && ann.newestTick() > begin + kFiveSeconds; }));
   const std::uint32_t stalled_until = ann.newestTick();
   // When mud reads again, it soon shows the server's picture.
   EXPECT_TRUE(serveUntil(asleep, {&mud}, [&] {
@@ -73,6 +72,45 @@ TEST_F(Company, PauseIsAVoteShownToAllPlayers) {
   press(bob, df::Keyboard::P);
   ASSERT_TRUE(until([&] { return hasRead(ann, "pause: 2 of 2"); }));
   EXPECT_TRUE(server.inWorld(is_paused));
+}
+
+using Chat = LoopbackFixture;
+
+TEST_F(Chat, RejoiningDoesNotRaiseTheChatLimitPerAddress) {
+  constexpr std::uint64_t kVisits = 200;
+  TestServer server([](df::World&) {});
+  TestClient ann(context, server.port(), "ann");
+  ASSERT_TRUE(joins(ann));
+  const auto began = Clock::now();
+  std::uint64_t joins = 0;
+  for (std::uint64_t i = 0; i < kVisits; ++i) {
+    ann.connection().update(Clock::now());
+    context.restart();
+    context.poll();
+    RawClient client(server.port());
+    client.send(RawClient::hello("revenant"));
+    const auto answer = client.receive();
+    if (!answer || !answer->has_welcome()) continue;
+    ++joins;
+    wire::ClientMessage line, leave;
+    line.mutable_chat()->set_text("again");
+    for (std::uint32_t number = 1; number <= 3; ++number) {  // as many as a new player may send
+      line.set_number(number);
+      client.send(line);
+    }
+    leave.mutable_leave();
+    client.send(leave);
+    client.waitForHangup();
+  }
+  const auto seconds = std::chrono::duration<double>(Clock::now() - began).count();
+  const Counters counters = server.counters();
+  EXPECT_LE(static_cast<double>(joins), 128 + 2 * seconds);
+  EXPECT_EQ(counters.refused_busy, kVisits - joins);
+  const std::uint64_t lines = 3 * joins - counters.chat_dropped;
+  EXPECT_LE(static_cast<double>(lines), 192 + 16 * seconds);
+  EXPECT_GE(lines, 192u);
+  EXPECT_TRUE(serve(ann, [&] { return ann.session().counters().chat_lines >= lines; }));
+  EXPECT_EQ(ann.session().counters().chat_lines, lines) << "what she heard";
 }
 
 }  // namespace

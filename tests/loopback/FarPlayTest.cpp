@@ -11,7 +11,6 @@
 
 #include "LoopbackFixture.h"
 #include "StreamProxy.h"
-#include "Valve.h"
 #include "engine/events/EventMouse.h"
 #include "engine/events/EventStep.h"
 #include "engine/managers/DisplayManager.h"
@@ -25,8 +24,6 @@
 namespace naiad::test {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 class FarServer : public LoopbackFixture {
  protected:
   void start(std::function<void(df::World&)> populate) {
@@ -38,13 +35,7 @@ class FarServer : public LoopbackFixture {
     valve->delay = std::chrono::milliseconds(50);
     valve->server_port = server->port();
   }
-  ClientSetup player(const std::string& name) {
-    ClientSetup setup = home.player(name);
-    setup.options.open_socket = through(context, valve);
-    return setup;
-  }
 
-  std::shared_ptr<Valve> valve = std::make_shared<Valve>();
   std::unique_ptr<TestServer> server;
   std::unique_ptr<StreamProxy> proxy;
 };
@@ -85,7 +76,7 @@ class PredictionPlay : public FarServer {
         [](df::World& world) { return world.picture().view().players.at(0).steering.position; });
   }
   bool isPredicting(TestClient& client) {
-    return serveUntil(context, {&client}, [&] {
+    return serve(client, [&] {
       if (!isOnDatagrams(client)) return false;
       client.session().predict(Clock::now());
       return client.session().isPredicting() && client.session().counters().datagrams_in > 30;
@@ -94,7 +85,7 @@ class PredictionPlay : public FarServer {
 };
 
 TEST_F(PredictionPlay, KeyShowsInTheNextFrameAndIsConfirmed) {
-  TestClient ann(context, proxy->port(), player("ann"));
+  TestClient ann(context, proxy->port(), playerWithValve("ann"));
   ASSERT_TRUE(isPredicting(ann));
   const df::FixedVector start = shown(ann);
   EXPECT_EQ(start, real());
@@ -107,12 +98,12 @@ TEST_F(PredictionPlay, KeyShowsInTheNextFrameAndIsConfirmed) {
     // The server's answer cannot have arrived yet, so the boat's move was predicted.
     EXPECT_EQ(shown(ann), (start + df::FixedVector{df::fromCells(x), 0})) << i;
     const std::uint32_t tick = ann.newestTick();
-    ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
+    ASSERT_TRUE(serve(ann, [&] {
       shown(ann);
       return ann.newestTick() >= tick + 4;
     }));
   }
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
+  ASSERT_TRUE(serve(ann, [&] {
     shown(ann);
     return ann.session().predict(Clock::now()).pendingInputs() == 0;
   }));
@@ -188,12 +179,11 @@ class LagCompensatorPlay : public FarServer {
   }
   ~LagCompensatorPlay() override { server.reset(); }  // the server adds to `clicks`, so it must end first
   bool plays(TestClient& ann) {
-    return serveUntil(context, {&ann},
-                      [&ann] { return isOnDatagrams(ann) && ann.session().counters().datagrams_in > 30; });
+    return serve(ann, [&ann] { return isOnDatagrams(ann) && ann.session().counters().datagrams_in > 30; });
   }
   /// Serves ann until `count` clicks have reached the game; false after a timeout.
   bool clicked(TestClient& ann, std::size_t count, std::vector<Click>& now) {
-    return serveUntil(context, {&ann}, [&] {
+    return serve(ann, [&] {
       now = server->inWorld([this](df::World&) { return clicks; });
       return now.size() >= count;
     });
@@ -203,14 +193,14 @@ class LagCompensatorPlay : public FarServer {
 };
 
 TEST_F(LagCompensatorPlay, AClickHitsWhatWasOnTheScreen) {
-  TestClient ann(context, proxy->port(), player("ann"));
+  TestClient ann(context, proxy->port(), playerWithValve("ann"));
   ASSERT_TRUE(plays(ann));
   int judged = 0;
   int fast = 0;
   int hits_now = 0;  ///< clicks on the fast target that would also hit without compensation
   for (std::size_t i = 0; judged < 30 && i < kMaxClicks; ++i) {
     const std::uint32_t tick = ann.newestTick();
-    ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() >= tick + 3; }));
+    ASSERT_TRUE(serve(ann, [&] { return ann.newestTick() >= tick + 3; }));
     const int row = i % 2 == 0 ? kSlow : kFast;
     const auto present = Clock::now();  // time of the picture and of the click in it
     const std::uint32_t drawn = ann.session().displayTick(present);

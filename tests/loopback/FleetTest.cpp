@@ -37,8 +37,7 @@ TEST_F(Fleet, ServerReportsReadyHealthAllocateAndShutdown) {
   EXPECT_TRUE(sidecar.waitFor(R"(PATCH /v1beta1/lists/players {"capacity":"64","values":["1"]})"));
   clients.clear();
   ann.reset();
-  game->signal(SIGTERM);
-  game->wait();
+  game->end(SIGTERM);
   EXPECT_EQ(sidecar.requests().back(), "POST /shutdown {}");
   EXPECT_TRUE(has(game->log(), "platform_requests="));
 }
@@ -50,8 +49,7 @@ TEST_F(Fleet, ImmediateStopAlsoReportsShutdown) {
   auto ann = join("ann");
   game->signal(SIGTERM);
   EXPECT_TRUE(waitForLog("stopping when all players have left"));
-  game->signal(SIGTERM);
-  game->wait();
+  game->end(SIGTERM);
   EXPECT_EQ(sidecar.requests().back(), "POST /shutdown {}");
 }
 
@@ -102,8 +100,7 @@ TEST_F(Fleet, KilledBusDisturbsNoPlayerAndIsReconnected) {
   })) << game->log().substr(before);
   EXPECT_EQ(ann->session().counters().resets, 0u);
   EXPECT_FALSE(has(game->log(), "reconnected")) << "ann had to come back";
-  game->signal(SIGTERM);
-  game->wait();
+  game->end(SIGTERM);
   EXPECT_TRUE(has(game->log(), "bus_connections=2"));
 }
 

@@ -11,7 +11,6 @@
 #include <iterator>
 #include <system_error>
 #include <thread>
-#include <vector>
 
 #include "TestClient.h"
 

@@ -37,6 +37,11 @@ class GameProgram {
   /// Waits until the program ends. Returns its status as from waitpid().
   int wait();
   void signal(int number) const;
+  /// Sends a signal and waits until the program ends. Returns its status as from waitpid().
+  int end(int number) {
+    signal(number);
+    return wait();
+  }
   /// Returns the program's log and output so far.
   std::string log() const;
   /// Returns the folder with the program's files, for example its key, identity/key.pem.

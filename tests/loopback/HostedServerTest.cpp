@@ -30,7 +30,6 @@
 namespace naiad::test {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
 std::string cheapHash(const std::string& password) {

@@ -6,11 +6,8 @@
 #include <sys/wait.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <chrono>
 #include <fstream>
 #include <memory>
-#include <sstream>
 
 #include "ProgramFixture.h"
 #include "host/auth/PasswordHash.h"
@@ -20,8 +17,6 @@
 
 namespace naiad::test {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr const char* kPassword = "open-sesame";
 constexpr int kMemory = 1024;  ///< memory limit of a world, in MiB
@@ -219,8 +214,7 @@ TEST_F(HostileGame, ItsChildrenEndWithIt) {
   EXPECT_TRUE(areAlive(of_bob));
   expectTheOthersPlay();
 
-  game->signal(SIGKILL);
-  game->wait();
+  game->end(SIGKILL);
   EXPECT_TRUE(serve([&] { return areGone(of_bob); })) << "the server could not end them any more";
 }
 

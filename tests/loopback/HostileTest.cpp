@@ -10,7 +10,6 @@
 #include "Compare.h"
 #include "LoopbackFixture.h"
 #include "RawClient.h"
-#include "Valve.h"
 #include "engine/world/Player.h"
 #include "engine/world/Views.h"
 #include "shared/net/stream/Framing.h"
@@ -21,7 +20,6 @@ namespace naiad::test {
 namespace {
 
 using asio::ip::udp;
-using Clock = std::chrono::steady_clock;
 
 std::string randomBytes(SplitMix64& random, std::size_t count) {
   std::string bytes;
@@ -116,7 +114,7 @@ TEST_F(Hostile, AThousandBadFramesChangeNothingForTheOthers) {
   options.max_per_address = 500;  // a burst of twice as many joins is allowed (RateLimits)
   TestServer server(busyWorld(50), options);
   TestClient ann(context, server.port(), player("ann"));
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  ASSERT_TRUE(serve(ann, [&] { return ann.joined(); }));
 
   SplitMix64 random(42);
   for (int i = 0; i < 1000; ++i) {
@@ -133,10 +131,10 @@ TEST_F(Hostile, AThousandBadFramesChangeNothingForTheOthers) {
     context.poll();
     if (i % 20 != 0) continue;
     const std::uint32_t tick = ann.newestTick();
-    ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > tick; })) << "after attack " << i;
+    ASSERT_TRUE(serve(ann, [&] { return ann.newestTick() > tick; })) << "after attack " << i;
   }
   // After the last attacker is removed, Ann plays alone and undisturbed.
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
+  ASSERT_TRUE(serve(ann, [&] {
     return ann.pictures().size() >= 100 &&
            server.inWorld([](df::World& world) { return world.views().getPlayers().size(); }) == 1;
   }));
@@ -149,14 +147,11 @@ TEST_F(Hostile, AThousandBadFramesChangeNothingForTheOthers) {
 }
 
 TEST_F(Hostile, GarbageAndForgedDatagramsAreNeverAnswered) {
-  const auto valve = std::make_shared<Valve>();
-  ClientSetup setup = home.player("ann");
-  setup.options.open_socket = through(context, valve);
   TestServer server(busyWorld(20), home.server());
-  TestClient ann(context, server.port(), setup);
+  TestClient ann(context, server.port(), playerWithValve("ann"));
   ASSERT_TRUE(settles(ann));
   ann.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().score() == 1; }));
+  ASSERT_TRUE(serve(ann, [&] { return ann.session().score() == 1; }));
 
   udp::socket attacker(context, udp::endpoint(asio::ip::address_v4::loopback(), 0));
   attacker.non_blocking(true);

@@ -4,20 +4,32 @@
 #include <gtest/gtest.h>
 
 #include <asio/io_context.hpp>
-#include <chrono>
+#include <functional>
+#include <memory>
 #include <string>
 
 #include "BusyWorld.h"
 #include "Home.h"
 #include "TestClient.h"
 #include "TestServer.h"
+#include "Valve.h"
 
 namespace naiad::test {
 
 class LoopbackFixture : public testing::Test {
  protected:
+  /// Returns a player's setup whose datagrams pass the valve.
+  ClientSetup playerWithValve(const std::string& name) {
+    ClientSetup setup = home.player(name);
+    setup.options.open_socket = through(context, valve);
+    return setup;
+  }
+  /// Serves the client until `done` returns true; false after kPatience.
+  bool serve(TestClient& client, const std::function<bool()>& done) {
+    return serveUntil(context, {&client}, done);
+  }
   bool isJudged(TestClient& client) {
-    return serveUntil(context, {&client}, [&] { return client.joined() || client.connection().isOver(); });
+    return serve(client, [&] { return client.joined() || client.connection().isOver(); });
   }
   testing::AssertionResult joins(TestClient& client) {
     if (isJudged(client) && client.joined()) return testing::AssertionSuccess();
@@ -30,26 +42,27 @@ class LoopbackFixture : public testing::Test {
     return client.joined() ? "" : client.connection().message();
   }
   bool ends(TestClient& client) {
-    return serveUntil(context, {&client}, [&] { return client.connection().isOver(); });
+    return serve(client, [&] { return client.connection().isOver(); });
   }
   /// Waits until the client receives its pictures as datagrams.
   bool settles(TestClient& client) {
-    return serveUntil(context, {&client}, [&] { return isOnDatagrams(client); });
+    return serve(client, [&] { return isOnDatagrams(client); });
   }
   /// Waits until the client has received this many more ticks.
   bool hears(TestClient& client, std::uint32_t ticks) {
     const std::uint32_t until = client.newestTick() + ticks;
-    return serveUntil(context, {&client}, [&] { return client.newestTick() >= until; });
+    return serve(client, [&] { return client.newestTick() >= until; });
   }
   /// Presses a key. True if the score rises, which in a busy world is the number of keys that reached it.
   bool keyWorks(TestClient& client) {
     const std::int32_t before = client.session().score();
     press(client, df::Keyboard::RIGHTARROW);
-    return serveUntil(context, {&client}, [&] { return client.session().score() > before; });
+    return serve(client, [&] { return client.session().score() > before; });
   }
 
   Home home;
   asio::io_context context;
+  std::shared_ptr<Valve> valve = std::make_shared<Valve>();
 };
 
 }  // namespace naiad::test

@@ -8,7 +8,6 @@
 
 #include "LoopbackFixture.h"
 #include "RawClient.h"
-#include "Valve.h"
 #include "host/auth/PasswordHash.h"
 #include "shared/values/SplitMix64.h"
 
@@ -16,7 +15,6 @@ namespace naiad::test {
 namespace {
 
 using asio::ip::udp;
-using Clock = std::chrono::steady_clock;
 
 using ManyClients = LoopbackFixture;
 
@@ -40,10 +38,7 @@ TEST_F(ManyClients, PasswordCheckDoesNotBlockTheTick) {
 
 TEST_F(ManyClients, SpoofedAddressesDoNotLockPlayersOut) {
   TestServer server(busyWorld(5), home.server());
-  const auto valve = std::make_shared<Valve>();
-  ClientSetup setup = home.player("ann");
-  setup.options.open_socket = through(context, valve);
-  TestClient ann(context, server.port(), setup);
+  TestClient ann(context, server.port(), playerWithValve("ann"));
   ASSERT_TRUE(settles(ann));
 
   // Sends forgeries from two hundred addresses, half of them with ann's id.

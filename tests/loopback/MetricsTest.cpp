@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "LoopbackFixture.h"
-#include "Valve.h"
 #include "engine/events/EventStep.h"
 #include "engine/world/Object.h"
 #include "shared/values/SplitMix64.h"
@@ -19,8 +18,6 @@
 
 namespace naiad::test {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 HostOptions withMetrics() {
   HostOptions options = fastOptions();
@@ -149,10 +146,7 @@ TEST_F(Metrics, AuditFindsNoWrongCellsWithDatagramLoss) {
   HostOptions options = home.server();
   options.metrics = "127.0.0.1:0";
   start(busyWorld(100), options);
-  const auto valve = std::make_shared<Valve>();
-  ClientSetup setup = home.player("ann");
-  setup.options.open_socket = through(context, valve);
-  clients.emplace_back(context, server->port(), setup);
+  clients.emplace_back(context, server->port(), playerWithValve("ann"));
   clients.back().keepPictures(false);
   TestClient& ann = clients.back();
   ASSERT_TRUE(serve([&] { return isOnDatagrams(ann); }));

@@ -5,14 +5,11 @@
 
 #include <chrono>
 #include <fstream>
-#include <string>
 
 #include "RoomsFixture.h"
 
 namespace naiad::test {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 class NamedRooms : public RoomsFixture {};
 

@@ -22,7 +22,7 @@ TEST_F(Loopback, ClientMatchesTheServerForAThousandTicks) {
   TestServer server(busyWorld(200));
   TestClient client(context, server.port(), "ann");
   std::uint32_t pressed = 0;
-  ASSERT_TRUE(serveUntil(context, {&client}, [&] {
+  ASSERT_TRUE(serve(client, [&] {
     // Presses keys, so that the player's own text and ship change.
     if (client.joined() && client.newestTick() > pressed + 10) {
       pressed = client.newestTick();
@@ -60,7 +60,7 @@ TEST_F(Loopback, ScreenShakeReachesTheClient) {
     new Shaker;
   });
   TestClient client(context, server.port(), "ann");
-  ASSERT_TRUE(serveUntil(context, {&client}, [&] {
+  ASSERT_TRUE(serve(client, [&] {
     if (client.joined())
       shaken += server.inWorld([](df::World& world) { return world.picture().view().shake_x != 0 ? 1 : 0; });
     return client.pictures().size() >= 200;

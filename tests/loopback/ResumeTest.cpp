@@ -11,15 +11,12 @@
 #include "LoopbackFixture.h"
 #include "RecordingServer.h"
 #include "StreamProxy.h"
-#include "Valve.h"
 #include "engine/world/ObjectRegistry.h"
 #include "engine/world/Player.h"
 #include "engine/world/Views.h"
 
 namespace naiad::test {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// A busy server. Its clients' streams pass through a proxy; their datagrams do not.
 class ProxiedServer : public LoopbackFixture {
@@ -30,15 +27,11 @@ class ProxiedServer : public LoopbackFixture {
     valve->server_port = server->port();
   }
   void start() { start(home.server()); }
-  virtual ClientSetup player(const std::string& name) {
-    ClientSetup setup = home.player(name);
-    setup.options.open_socket = through(context, valve);
-    return setup;
-  }
+  virtual ClientSetup player(const std::string& name) { return playerWithValve(name); }
   /// Waits until a picture after this call equals the server's.
   bool seesTheTruth(TestClient& client) {
     client.forgetPictures();
-    return serveUntil(context, {&client}, [&] { return showsTheTruth(client, *server); });
+    return serve(client, [&] { return showsTheTruth(client, *server); });
   }
   void expectNoJoinOrLeave() {
     EXPECT_EQ(census.joins, 1);
@@ -47,7 +40,6 @@ class ProxiedServer : public LoopbackFixture {
   }
 
   Census census;
-  std::shared_ptr<Valve> valve = std::make_shared<Valve>();
   std::unique_ptr<TestServer> server;
   std::unique_ptr<StreamProxy> proxy;
 };
@@ -57,8 +49,7 @@ class ProxiedServer : public LoopbackFixture {
 class Resume : public ProxiedServer {
  protected:
   bool settle(TestClient& client) {
-    return serveUntil(context, {&client},
-                      [&] { return isOnDatagrams(client) && client.session().score() >= 0; });
+    return serve(client, [&] { return isOnDatagrams(client) && client.session().score() >= 0; });
   }
   TestClient& startAndSettle(const std::string& password = "") {
     start();
@@ -69,7 +60,7 @@ class Resume : public ProxiedServer {
     return *settled;
   }
   bool resumes(TestClient& client, std::uint64_t times) {
-    return serveUntil(context, {&client}, [&] {
+    return serve(client, [&] {
       return client.joined() && !client.session().isDetached() && server->counters().resumed >= times;
     });
   }
@@ -77,7 +68,7 @@ class Resume : public ProxiedServer {
   bool losesItsStream(TestClient& client) {
     proxy->setOpen(false);
     proxy->cut();
-    return serveUntil(context, {&client}, [&] { return client.session().isDetached(); });
+    return serve(client, [&] { return client.session().isDetached(); });
   }
 
   std::unique_ptr<TestClient> settled;
@@ -119,7 +110,7 @@ TEST_F(Resume, ClientResumesAfterItsSessionTimedOut) {
   EXPECT_EQ(ann.session().state(), ClientSession::State::kLost);
   valve->down = valve->up = true;
   proxy->setOpen(true);
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  ASSERT_TRUE(serve(ann, [&] { return ann.joined(); }));
   EXPECT_EQ(ann.player(), id);
   EXPECT_TRUE(settle(ann));
   EXPECT_TRUE(keyWorks(ann));
@@ -131,14 +122,14 @@ TEST_F(Resume, DatagramsContinueWithoutAStream) {
   ASSERT_TRUE(losesItsStream(ann));
   // Two seconds of play, with keys.
   const std::uint32_t tick = ann.newestTick();
-  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > tick + 400; }));
+  EXPECT_TRUE(serve(ann, [&] { return ann.newestTick() > tick + 400; }));
   EXPECT_TRUE(ann.session().isDetached());
   const auto keys = [&] {
     return server->inWorld([&](df::World& world) { return world.views().player(ann.player())->getScore(); });
   };
   const int before = keys();
   ann.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
-  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return keys() > before; }));
+  EXPECT_TRUE(serve(ann, [&] { return keys() > before; }));
   EXPECT_EQ(server->counters().detached, 1u);
 
   proxy->setOpen(true);
@@ -150,13 +141,12 @@ TEST_F(Resume, DatagramsContinueWithoutAStream) {
 TEST_F(Resume, TheRoundTripIsMeasuredWithoutAStream) {
   TestClient& ann = startAndSettle();
   ASSERT_TRUE(losesItsStream(ann));
-  EXPECT_TRUE(serveUntil(
-      context, {&ann}, [&] { return ann.session().inputTickEstimator().shortestRoundTrip().count() < 40; }));
+  EXPECT_TRUE(
+      serve(ann, [&] { return ann.session().inputTickEstimator().shortestRoundTrip().count() < 40; }));
   const auto before = ann.session().roundTrip();
   valve->delay = before + std::chrono::milliseconds(100);
   const auto longer = before + std::chrono::milliseconds(40);
-  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().roundTrip() >= longer; }))
-      << "as datagrams go";
+  EXPECT_TRUE(serve(ann, [&] { return ann.session().roundTrip() >= longer; })) << "as datagrams go";
   EXPECT_TRUE(ann.session().isDetached());
 }
 
@@ -165,7 +155,7 @@ TEST_F(Resume, ImpostorServerReceivesNoBytesOnReconnect) {
   RecordingServer impostor(home.identity("another identity"));
   proxy->setServer(impostor.port());
   proxy->cut();  // datagrams still reach the real server
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return impostor.isDecided(1); }));
+  ASSERT_TRUE(serve(ann, [&] { return impostor.isDecided(1); }));
   EXPECT_EQ(impostor.heard(), "");
   ASSERT_TRUE(ends(ann));
   EXPECT_EQ(ann.connection().state(), Connection::State::kRefused);
@@ -179,9 +169,9 @@ TEST_F(Resume, ImpostorOnTheSecondStreamReceivesNoBytes) {
   ClientSetup setup = player("ann");
   setup.options.password = "xyzzy";
   TestClient ann(context, proxy->port(), setup);
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+  ASSERT_TRUE(serve(ann, [&] { return ann.joined(); }));
   proxy->setServer(impostor.port());
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return impostor.isDecided(1); }));
+  ASSERT_TRUE(serve(ann, [&] { return impostor.isDecided(1); }));
   EXPECT_EQ(impostor.heard(), "");
   EXPECT_TRUE(ann.joined()) << "the first stream goes on";
   EXPECT_FALSE(ann.session().hasSecondStream());
@@ -192,7 +182,7 @@ TEST_F(Resume, TemporarilyRefusedClientReconnectsByItself) {
   TestClient& ann = startAndSettle();
   const std::uint32_t id = ann.player();
   // Break each new stream at once, until the server asks the client, because of many resumes, to wait.
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
+  ASSERT_TRUE(serve(ann, [&] {
     if (ann.joined() && !ann.session().isDetached()) proxy->cut();
     return ann.connection().isDeferred();
   }));
@@ -234,7 +224,7 @@ class Return : public ProxiedServer {
     return joins(*ann);
   }
   bool scores(TestClient& client, std::int32_t score) {
-    return serveUntil(context, {&client}, [&] { return client.session().score() == score; });
+    return serve(client, [&] { return client.session().score() == score; });
   }
   /// Presses a key this many times, waiting for each. The score counts the presses.
   bool press(TestClient& client, int times) {
@@ -271,7 +261,7 @@ TEST_F(Return, RestartedClientGetsItsObjectBack) {
     EXPECT_TRUE(settles(*ann));
     EXPECT_TRUE(playsOn(*ann));
     proxy->cut();
-    ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] {
+    ASSERT_TRUE(serve(*ann, [&] {
       return !ann->session().isDetached() && server->counters().resumed == 2 * round;
     })) << "the new client's stream is replaced";
     EXPECT_TRUE(press(*ann, 1));
@@ -303,21 +293,20 @@ TEST_F(Return, KeysOfAKilledClientAreReleased) {
     ann->session().sendKey(key, df::KEY_PRESSED, Clock::now());
   }
   ann->session().sendKey(df::Keyboard::SPACE, df::KEY_RELEASED, Clock::now());
-  ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return census.pressed == 3 && census.released == 1; }));
+  ASSERT_TRUE(serve(*ann, [&] { return census.pressed == 3 && census.released == 1; }));
   ann.reset();
   ASSERT_TRUE(serveUntil(context, {}, [&] { return census.released == 3; }));
 
   ann = client("ann");
   ASSERT_TRUE(joins(*ann));
   ann->session().sendKey(df::Keyboard::B, df::KEY_PRESSED, Clock::now());
-  ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return census.pressed == 4; }));
+  ASSERT_TRUE(serve(*ann, [&] { return census.pressed == 4; }));
   EXPECT_TRUE(playsOn(*ann));
   EXPECT_EQ(census.released, 3)
       << "each key is released once, and a client that is back keeps its own pressed";
   proxy->stall();
   ASSERT_TRUE(comesBack(ann));
-  EXPECT_TRUE(serveUntil(context, {ann.get()}, [&] { return census.released == 4; }))
-      << "also where the server did not know";
+  EXPECT_TRUE(serve(*ann, [&] { return census.released == 4; })) << "also where the server did not know";
 }
 
 TEST_F(Return, SessionMovesToTheClientWithTheToken) {

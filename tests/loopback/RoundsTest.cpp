@@ -4,12 +4,10 @@
 #include <signal.h>
 #include <sys/wait.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -20,7 +18,6 @@
 namespace naiad::test {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
 /// Values that the game draws, such as its global variables.
@@ -229,8 +226,7 @@ TEST_F(Rounds, WatchShowsGameLogLines) {
   start({});
   auto ann = join("ann");
   EXPECT_EQ(watchedLine(*ann, df::Keyboard::L), R"({"event":"game","text":"game: logged \\x1b[31mred"})");
-  game->signal(SIGTERM);
-  game->wait();
+  game->end(SIGTERM);
   EXPECT_TRUE(has(gamesOwnLog(), "logged")) << "its own file has it as ever";
 }
 

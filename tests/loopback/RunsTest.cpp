@@ -40,11 +40,8 @@ TEST_F(Runs, PlayersStayConnectedFromTheFirstToTheLast) {
   for (const auto& row : rows) {
     SCOPED_TRACE(row.name);
     clients.clear();
-    game = std::make_unique<GameProgram>(
-        "runs_game",
-        std::map<std::string, std::string>{{"RUNS", row.steps},
-                                           {"NAIAD_ON_GAME_OVER", row.steps[0] == 'k' ? "exit" : "leave"}});
-    ASSERT_NE(game->port(), 0) << game->log();
+    ASSERT_NO_FATAL_FAILURE(launch(
+        "runs_game", {{"RUNS", row.steps}, {"NAIAD_ON_GAME_OVER", row.steps[0] == 'k' ? "exit" : "leave"}}));
     auto ann = join("ann");
     auto bob = join("bob");
     const std::uint32_t player = ann->player();
@@ -70,7 +67,6 @@ TEST_F(Runs, PlayersStayConnectedFromTheFirstToTheLast) {
 // A player that leaves or joins while no run is active has done so when the next one begins.
 TEST_F(Runs, LeavingAndJoiningInAPauseTakesEffect) {
   launch("runs_game", {{"RUNS", "rpr"}});
-  ASSERT_NE(game->port(), 0) << game->log();
   auto ann = join("ann");
   auto bob = join("bob");
   press(*ann, df::Keyboard::SPACE);

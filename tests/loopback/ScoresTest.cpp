@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -46,8 +45,7 @@ TEST_F(Scores, ScoresSurviveRoundsAndServerKills) {
   const std::string list = listed();
   EXPECT_TRUE(has(list, R"("table":"steps","place":1,"name":"walker","points":3)"));
 
-  game->signal(SIGKILL);
-  game->wait();
+  game->end(SIGKILL);
   client.reset();
   start();
   join();
@@ -94,8 +92,7 @@ TEST_F(RoomScores, ScoreIsFoundAtItsTickInTheRecording) {
   const std::string tick = valueIn(listed, "tick");
   const std::string number = valueIn(listed, "number");
   EXPECT_TRUE(recording.starts_with("two/scores_module-")) << listed;
-  game->signal(SIGTERM);
-  game->wait();
+  game->end(SIGTERM);
   const std::string added = replay(recording, "--scores");
   EXPECT_TRUE(has(added, "tick=" + tick + " number=" + number + " table=even name=\"counter\" points=6\n"))
       << listed;

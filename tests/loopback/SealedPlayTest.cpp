@@ -4,28 +4,18 @@
 #include "Compare.h"
 #include "LoopbackFixture.h"
 #include "StreamProxy.h"
-#include "Valve.h"
 
 namespace naiad::test {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 class SealedPlay : public LoopbackFixture {
  protected:
-  ClientSetup player(const std::string& name) {
-    ClientSetup setup = home.player(name);
-    setup.options.open_socket = through(context, valve);
-    return setup;
-  }
   static std::uint64_t datagrams(TestClient& client) { return client.session().counters().datagrams_in; }
   /// Returns the number of snapshots received on the stream.
   static std::uint64_t streamed(TestClient& client) {
     const SessionCounters& counters = client.session().counters();
     return counters.snapshots + counters.stale_snapshots - counters.datagrams_in;
   }
-
-  std::shared_ptr<Valve> valve = std::make_shared<Valve>();
 };
 
 TEST_F(SealedPlay, PicturesEqualTheTruthOverDatagrams) {
@@ -37,7 +27,7 @@ TEST_F(SealedPlay, PicturesEqualTheTruthOverDatagrams) {
   std::uint64_t on_stream = streamed(ann);
   ann.forgetPictures();
   std::uint32_t pressed = 0;
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
+  ASSERT_TRUE(serve(ann, [&] {
     if (streamed(ann) != on_stream) ann.forgetPictures();
     on_stream = streamed(ann);
     if (ann.newestTick() > pressed + 10) {
@@ -56,11 +46,11 @@ TEST_F(SealedPlay, PicturesEqualTheTruthOverDatagrams) {
 TEST_F(SealedPlay, WithDatagramsBlockedASecondStreamIsOpened) {
   valve->up = valve->down = false;
   TestServer server(busyWorld(50), home.server());
-  TestClient ann(context, server.port(), player("ann"));
+  TestClient ann(context, server.port(), playerWithValve("ann"));
   ASSERT_TRUE(joins(ann));
   EXPECT_FALSE(ann.session().hasSecondStream()) << "it may be that datagrams will pass in a moment";
   const auto has_second = [&] { return ann.session().hasSecondStream(); };
-  ASSERT_TRUE(serveUntil(context, {&ann}, has_second));
+  ASSERT_TRUE(serve(ann, has_second));
   EXPECT_EQ(server.counters().second_streams, 1u);
   EXPECT_EQ(server.counters().joined, 1u);
   ann.forgetPictures();
@@ -73,7 +63,7 @@ TEST_F(SealedPlay, WithDatagramsBlockedASecondStreamIsOpened) {
 
   valve->up = valve->down = true;
   const auto returns = [&] { return isOnDatagrams(ann) && !ann.session().hasSecondStream(); };
-  ASSERT_TRUE(serveUntil(context, {&ann}, returns)) << "it is not needed any more";
+  ASSERT_TRUE(serve(ann, returns)) << "it is not needed any more";
   EXPECT_TRUE(keyWorks(ann));
 }
 
@@ -81,18 +71,18 @@ TEST_F(SealedPlay, ReconnectedClientReopensTheSecondStream) {
   valve->up = valve->down = false;
   TestServer server(busyWorld(50), home.server());
   StreamProxy proxy(context, server.port());
-  ClientSetup setup = player("ann");
+  ClientSetup setup = playerWithValve("ann");
   setup.rejoin = true;
   TestClient ann(context, proxy.port(), setup);
   const auto has_second = [&](std::uint64_t times) {
-    return serveUntil(context, {&ann}, [&] {
+    return serve(ann, [&] {
       return ann.joined() && ann.session().hasSecondStream() && server.counters().second_streams == times;
     });
   };
   ASSERT_TRUE(joins(ann) && has_second(1));
   const std::uint32_t id = ann.player();
   proxy.cut();
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return server.counters().resumed == 1; }));
+  ASSERT_TRUE(serve(ann, [&] { return server.counters().resumed == 1; }));
   ASSERT_TRUE(has_second(2));
   EXPECT_EQ(ann.player(), id);
   EXPECT_TRUE(keyWorks(ann));
@@ -104,9 +94,9 @@ TEST_F(SealedPlay, StalledStreamDoesNotBlockTheGame) {
   valve->up = valve->down = false;
   TestServer server(busyWorld(50), home.server());
   StreamProxy proxy(context, server.port());
-  TestClient ann(context, proxy.port(), player("ann"));
+  TestClient ann(context, proxy.port(), playerWithValve("ann"));
   ASSERT_TRUE(joins(ann));
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().hasSecondStream(); }));
+  ASSERT_TRUE(serve(ann, [&] { return ann.session().hasSecondStream(); }));
   ann.forgetPictures();
   ann.keepWholePictures();  // a snapshot is lost if it was sent only on the stalled stream, because the other
                             // one was full
@@ -116,7 +106,7 @@ TEST_F(SealedPlay, StalledStreamDoesNotBlockTheGame) {
   EXPECT_EQ(server.counters().repeated_inputs, 0u);
   ann.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
   const auto taken = [&] { return ann.session().replica().newest().input != 0; };
-  EXPECT_TRUE(serveUntil(context, {&ann}, taken)) << "the key goes that way, too";
+  EXPECT_TRUE(serve(ann, taken)) << "the key goes that way, too";
   EXPECT_EQ(server.counters().detached, 0u);
 }
 
@@ -126,10 +116,10 @@ TEST_F(SealedPlay, FallsBackWithinTwoSecondsAndReturns) {
     valve->up = up;
     valve->down = down;
     TestServer server(busyWorld(50), home.server());
-    TestClient ann(context, server.port(), player("ann"));
+    TestClient ann(context, server.port(), playerWithValve("ann"));
     const auto returns = [&] {
       valve->up = valve->down = true;
-      return serveUntil(context, {&ann}, [&, before = datagrams(ann)] {
+      return serve(ann, [&, before = datagrams(ann)] {
         return isOnDatagrams(ann) && !ann.session().hasSecondStream() && datagrams(ann) > before + 100;
       });
     };
@@ -156,14 +146,14 @@ TEST_F(SealedPlay, FallsBackWithinTwoSecondsAndReturns) {
 
 TEST_F(SealedPlay, ExhaustedKeysMoveTheSessionToANewStream) {
   TestServer server(busyWorld(50), home.server());
-  ClientSetup setup = player("ann");
+  ClientSetup setup = playerWithValve("ann");
   setup.options.seal_limits.new_epoch_after = 300;
   TestClient ann(context, server.port(), setup);
   ASSERT_TRUE(settles(ann));
   for (std::uint64_t times = 1; times <= 3; ++times) {
-    ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return server.counters().resumed >= times; }));
+    ASSERT_TRUE(serve(ann, [&] { return server.counters().resumed >= times; }));
     const std::uint64_t before = datagrams(ann);
-    ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return datagrams(ann) > before + 50; }));
+    ASSERT_TRUE(serve(ann, [&] { return datagrams(ann) > before + 50; }));
     EXPECT_TRUE(keyWorks(ann));
   }
   const Counters counters = server.counters();
@@ -176,7 +166,7 @@ TEST_F(SealedPlay, ExhaustedKeysMoveTheSessionToANewStream) {
 
 TEST_F(SealedPlay, PortChangeIsFollowedWithinASecond) {
   TestServer server(busyWorld(50), home.server());
-  TestClient ann(context, server.port(), player("ann"));
+  TestClient ann(context, server.port(), playerWithValve("ann"));
   ASSERT_TRUE(settles(ann));
   for (int i = 0; i < 3; ++i) {
     const std::uint16_t port = valve->p_socket->localEndpoint().port;

@@ -5,7 +5,6 @@
 #include <asio/steady_timer.hpp>
 #include <asio/write.hpp>
 #include <chrono>
-#include <memory>
 
 #include "shared/net/stream/TcpConnector.h"
 #include "shared/net/stream/TlsStream.h"

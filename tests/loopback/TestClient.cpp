@@ -2,11 +2,27 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
+#include <fstream>
 #include <utility>
 
-#include "tests/support/RunDelay.h"
-
 namespace naiad::test {
+
+namespace {
+
+/// Returns the total time that this process's current threads were ready to run but did not (the second
+/// number of /proc/PID/task/TID/schedstat); zero if the kernel does not report it.
+std::chrono::nanoseconds runDelay() {
+  std::int64_t sum = 0;
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::int64_t ran = 0;
+    std::int64_t waited = 0;
+    if (std::ifstream(thread.path() / "schedstat") >> ran >> waited) sum += waited;
+  }
+  return std::chrono::nanoseconds(sum);
+}
+
+}  // namespace
 
 ClientSetup insecurely(const std::string& name) {
   ClientSetup setup;
@@ -48,11 +64,11 @@ void TestClient::record(ClientSession& session, std::uint32_t tick) {
 }
 
 void press(TestClient& client, df::Keyboard::Key key) {
-  client.session().sendKey(key, df::KEY_PRESSED, std::chrono::steady_clock::now());
+  client.session().sendKey(key, df::KEY_PRESSED, Clock::now());
 }
 
 bool isOnDatagrams(TestClient& client) {
-  return client.joined() && client.session().hasDatagrams(std::chrono::steady_clock::now()) &&
+  return client.joined() && client.session().hasDatagrams(Clock::now()) &&
          client.session().counters().datagrams_in > 20;
 }
 
@@ -87,7 +103,7 @@ std::optional<std::chrono::nanoseconds> timeUntil(asio::io_context& context,
                                                   const std::vector<TestClient*>& clients,
                                                   const std::function<bool()>& done) {
   constexpr std::chrono::nanoseconds kMaxTurn = std::chrono::milliseconds(10);
-  auto now = std::chrono::steady_clock::now();
+  auto now = Clock::now();
   const auto end = now + kPatience;
   const std::chrono::nanoseconds delay = runDelay();
   std::chrono::nanoseconds took{0};
@@ -96,7 +112,7 @@ std::optional<std::chrono::nanoseconds> timeUntil(asio::io_context& context,
     for (TestClient* client : clients) client->connection().update(now);
     context.restart();
     context.run_one_for(std::chrono::milliseconds(5));
-    const auto before = std::exchange(now, std::chrono::steady_clock::now());
+    const auto before = std::exchange(now, Clock::now());
     took += std::min<std::chrono::nanoseconds>(now - before, kMaxTurn);
   }
   // The wait is only an estimate, because several threads may wait at once, and an ended thread's wait is

@@ -18,6 +18,8 @@
 
 namespace naiad::test {
 
+using Clock = std::chrono::steady_clock;
+
 /// Timeout, long enough for a loaded machine. Only tests that fail reach it.
 inline constexpr std::chrono::seconds kPatience{kSanitized ? 120 : 60};
 

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <memory>
 #include <mutex>
 #include <thread>
 
@@ -21,7 +20,6 @@
 namespace naiad::test {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
 constexpr const char* kGoodbye = "The server is shutting down.";
@@ -95,8 +93,7 @@ TEST_F(Trouble, ShutdownLogCountsRefusedPasswords) {
     EXPECT_TRUE(serve([&] { return ann.joined() || ann.connection().isOver(); }));
     clients.clear();
   }
-  game->signal(SIGTERM);
-  game->wait();
+  game->end(SIGTERM);
   EXPECT_TRUE(has(game->log(), " refused_password=2 "));
   EXPECT_TRUE(has(game->log(), "passwords: right=1 wrong=1 malformed=1\n"));
 }

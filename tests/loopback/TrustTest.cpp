@@ -33,13 +33,13 @@ TEST_F(TrustTest, ServerWithAnotherKeyReceivesNoBytes) {
     ann.connection().leave();
     TestClient again(context, proxy.port(), setup);
     EXPECT_TRUE(has(refusal(again), "HAS CHANGED"));
-    ASSERT_TRUE(serveUntil(context, {&again}, [&] { return impostor.isDecided(1); }));
+    ASSERT_TRUE(serve(again, [&] { return impostor.isDecided(1); }));
     EXPECT_EQ(impostor.heard(), "");
   }
   const auto expectRefusal = [&](const char* sentence, int connections) {
     TestClient client(context, impostor.port(), setup);
     EXPECT_TRUE(has(refusal(client), sentence));
-    EXPECT_TRUE(serveUntil(context, {&client}, [&] { return impostor.isDecided(connections); }));
+    EXPECT_TRUE(serve(client, [&] { return impostor.isDecided(connections); }));
     EXPECT_EQ(impostor.heard(), "");
   };
   const auto other = Fingerprint::parse(std::string(64, 'a'));
@@ -52,8 +52,7 @@ TEST_F(TrustTest, ServerWithAnotherKeyReceivesNoBytes) {
   // Checks the recorder itself: it records bytes when the client trusts it.
   setup.trust.fingerprint = impostor.fingerprint();
   auto trusting = std::make_unique<TestClient>(context, impostor.port(), setup);
-  EXPECT_TRUE(serveUntil(context, {trusting.get()},
-                         [&] { return impostor.heard().find("xyzzy") != std::string::npos; }));
+  EXPECT_TRUE(serve(*trusting, [&] { return impostor.heard().find("xyzzy") != std::string::npos; }));
 }
 
 }  // namespace

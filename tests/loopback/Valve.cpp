@@ -1,7 +1,6 @@
 #include "Valve.h"
 
 #include <asio/steady_timer.hpp>
-#include <string>
 #include <utility>
 
 namespace naiad::test {
