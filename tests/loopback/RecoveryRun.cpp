@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -26,8 +25,6 @@
 namespace naiad::test {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kBetweenKeys{20};
 /// Number of further ticks that each client must see after its world was killed or hung.
@@ -161,45 +158,34 @@ void RecoveryRun::startServer() {
   if (m_port == 0) throw std::runtime_error("the server does not start: " + m_server->log());
 }
 
-bool RecoveryRun::serveUntilJoined() {
-  const auto end = Clock::now() + kPatience;
-  const auto is_ready = [](const auto& client) { return client->isBack() || client->isOver(); };
-  while (Clock::now() < end) {
+bool RecoveryRun::playUntil(const std::function<bool()>& done, std::chrono::milliseconds patience) {
+  const auto end = Clock::now() + patience;
+  while (!done()) {
+    if (Clock::now() > end) return false;
     for (const auto& client : m_clients) client->update(Clock::now());
-    if (std::ranges::all_of(m_clients, is_ready)) return true;
     m_context.restart();
     m_context.run_one_for(std::chrono::milliseconds(5));
   }
-  return false;
+  return true;
+}
+
+bool RecoveryRun::serveUntilJoined() {
+  const auto is_ready = [](const auto& client) { return client->isBack() || client->isOver(); };
+  return playUntil([&] { return std::ranges::all_of(m_clients, is_ready); });
 }
 
 void RecoveryRun::play(std::chrono::milliseconds time) {
-  const auto end = Clock::now() + time;
-  while (Clock::now() < end) {
-    for (const auto& client : m_clients) client->update(Clock::now());
-    m_context.restart();
-    m_context.run_one_for(std::chrono::milliseconds(5));
-  }
+  playUntil([] { return false; }, time);
 }
 
 bool RecoveryRun::playUntilPictured() {
-  const auto end = Clock::now() + kPatience;
   const auto has_picture = [](const auto& client) { return client->hasPicture(); };
-  while (!std::ranges::all_of(m_clients, has_picture)) {
-    if (Clock::now() > end) return false;
-    play(std::chrono::milliseconds(5));
-  }
-  return true;
+  return playUntil([&] { return std::ranges::all_of(m_clients, has_picture); });
 }
 
 bool RecoveryRun::playUntilTurn(std::uint32_t turn, std::chrono::seconds patience) {
-  const auto end = Clock::now() + patience;
   const auto is_there = [&](const auto& client) { return client->newestTick() >= m_first_tick + turn; };
-  while (!std::ranges::all_of(m_clients, is_there)) {
-    if (Clock::now() > end) return false;
-    play(std::chrono::milliseconds(20));
-  }
-  return true;
+  return playUntil([&] { return std::ranges::all_of(m_clients, is_there); }, patience);
 }
 
 std::filesystem::path RecoveryRun::round() const {
@@ -226,8 +212,7 @@ KillResult RecoveryRun::killTwice(std::chrono::milliseconds between) {
   killServer();
   startServer();
   play(between);
-  m_server->signal(SIGKILL);
-  m_server->wait();
+  m_server->end(SIGKILL);
   m_log += m_server->log();
   for (const auto& client : m_clients) client->forgetSession();  // some may already have returned
   return comeBack();
@@ -241,8 +226,7 @@ KillResult RecoveryRun::killBoth() {
 
 void RecoveryRun::killServer() {
   m_killed_at = Clock::now();
-  m_server->signal(SIGKILL);
-  m_server->wait();
+  m_server->end(SIGKILL);
   m_log += m_server->log();
   play(std::chrono::milliseconds(20));  // receives the messages that the server sent before
   m_before.clear();
@@ -257,12 +241,7 @@ void RecoveryRun::killServer() {
 
 // Waits for the line, because a client may have its answer before another thread has written the line.
 bool RecoveryRun::isLogged(const std::string& text) {
-  const auto end = Clock::now() + kForLog;
-  while (m_server->log().find(text) == std::string::npos) {
-    if (Clock::now() > end) return false;
-    play(std::chrono::milliseconds(5));
-  }
-  return true;
+  return playUntil([&] { return m_server->log().find(text) != std::string::npos; }, kForLog);
 }
 
 KillResult RecoveryRun::comeBack() {
@@ -328,12 +307,12 @@ std::optional<std::chrono::milliseconds> RecoveryRun::timeToNextPicture(const st
     return true;
   };
   std::optional<Clock::time_point> next_picture;
-  while (!sees_more(kSeenTicks)) {
-    if (Clock::now() > began + kPatience) return std::nullopt;
-    play(std::chrono::milliseconds(2));
+  const bool seen = playUntil([&] {
     // Pictures sent before the world failed still arrive, so the first kOnTheWay ticks do not count.
     if (!next_picture && sees_more(kOnTheWay)) next_picture = Clock::now();
-  }
+    return sees_more(kSeenTicks);
+  });
+  if (!seen) return std::nullopt;
   for (std::size_t i = 0; i < m_clients.size(); ++i) {
     if (m_clients[i]->session() != before[i].first) return std::nullopt;
   }
@@ -375,8 +354,7 @@ void RecoveryRun::compare(KillResult& result) {
 bool RecoveryRun::verify(std::string& said) {
   for (const auto& client : m_clients) client->leave();
   play(std::chrono::milliseconds(200));
-  m_server->signal(SIGTERM);
-  m_server->wait();
+  m_server->end(SIGTERM);
   m_log += m_server->log();
   const RecordedRound recorded(round());
   const ReplayEnvironment stage(recorded, replayedGame());

@@ -90,6 +90,8 @@ class RecoveryRun {
   void killServer();
   /// Starts the server again and waits for the players.
   KillResult comeBack();
+  /// Lets the players play until `done` returns true. False after `patience`.
+  bool playUntil(const std::function<bool()>& done, std::chrono::milliseconds patience = kPatience);
   bool serveUntilJoined();
   /// Calls `harm` and returns the time until the last player's next picture.
   std::optional<std::chrono::milliseconds> timeToNextPicture(const std::function<void()>& harm);
