@@ -1,4 +1,5 @@
 // A directory's lobby and full servers: the real programs, the real nats-server, and clients like dfclient's.
+// The lobby's answers to hellos and to other frames.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -18,6 +19,7 @@
 #include "server/directory/Lobby.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/stream/JoinLink.h"
+#include "shared/values/SplitMix64.h"
 #include "tests/loopback/BusyWorld.h"
 #include "tests/loopback/GameProgram.h"
 #include "tests/loopback/Home.h"
@@ -198,6 +200,83 @@ TEST_F(LobbyTest, LobbyDropsSilentAndInvalidClientsAndKeepsServing) {
   EXPECT_EQ(met.hellos, 2u);
   EXPECT_EQ(met.malformed, 1u);
   EXPECT_EQ(met.timeouts, 1u);
+}
+
+Presence lobbyServer(const std::string& id) {
+  return presenceOf(id, 0, 2);
+}
+
+wire::ClientMessage hello(const std::string& game = "", std::uint32_t protocol = 4) {
+  wire::ClientMessage message = RawClient::hello("ann");
+  message.mutable_hello()->set_protocol(protocol);
+  message.mutable_hello()->set_game(game);
+  return message;
+}
+
+/// The answers of a lobby that knows a server with two places.
+struct LobbyReplyTest : testing::Test {
+  LobbyReplyTest() { handleHeartbeat(servers, lobbyServer("a")); }
+  wire::Refused answerTo(const wire::ClientMessage& message) {
+    const auto answer = replyToHello(message.SerializeAsString(), servers);
+    wire::ServerMessage said;
+    EXPECT_TRUE(answer && said.ParseFromString(answer->frame));
+    return said.refused();
+  }
+
+  FleetRegistry servers;
+};
+
+TEST_F(LobbyReplyTest, RedirectNamesTheRoomSeparatelyAndInTheMessage) {
+  Presence server = lobbyServer("a");
+  server.rooms = {{"hall", "lobby", 0, 2}, {"duel", "tron", 0, 2}};
+  handleHeartbeat(servers, server);
+  const wire::Refused refused = answerTo(hello("tron"));
+  EXPECT_EQ(refused.reason(), wire::Refused::REDIRECT);
+  EXPECT_EQ(refused.redirect(), linkOf(server)) << "as clients know it that know no rooms";
+  EXPECT_EQ(refused.redirect_room(), "duel");
+  EXPECT_NE(refused.message().find(linkOf(server, "duel")), std::string::npos) << refused.message();
+  wire::ClientMessage wish = hello();
+  wish.mutable_hello()->set_room("duel");
+  EXPECT_EQ(answerTo(wish).redirect_room(), "duel");
+  wish.mutable_hello()->set_room("cellar");
+  EXPECT_EQ(answerTo(wish).reason(), wire::Refused::GAME);
+  EXPECT_NE(answerTo(wish).message().find("cellar"), std::string::npos);
+}
+
+TEST_F(LobbyReplyTest, PlayersGetABusyReplyWhenServersAreFull) {
+  answerTo(hello());
+  answerTo(hello());
+  const wire::Refused refused = answerTo(hello());
+  EXPECT_EQ(refused.reason(), wire::Refused::BUSY);
+  EXPECT_EQ(refused.redirect(), "");
+}
+
+TEST_F(LobbyReplyTest, UnknownGameOrProtocolIsRefusedWithTheReason) {
+  EXPECT_EQ(answerTo(hello("maze")).reason(), wire::Refused::GAME);
+  EXPECT_NE(answerTo(hello("maze")).message().find("maze"), std::string::npos);
+  EXPECT_EQ(answerTo(hello("", 5)).reason(), wire::Refused::GAME);
+  EXPECT_EQ(answerTo(hello("\033[2J")).message().find('\033'), std::string::npos);
+  Presence newer = lobbyServer("b");
+  newer.protocol = 5;
+  handleHeartbeat(servers, newer);
+  EXPECT_EQ(answerTo(hello("", 5)).reason(), wire::Refused::REDIRECT) << "it knows each version's servers";
+}
+
+TEST_F(LobbyReplyTest, InvalidHelloGetsNoReplyAndReservesNoSlot) {
+  wire::ClientMessage other = hello();
+  other.mutable_hello()->set_magic(7);
+  EXPECT_FALSE(replyToHello(other.SerializeAsString(), servers));
+  other.mutable_leave();
+  EXPECT_FALSE(replyToHello(other.SerializeAsString(), servers));
+  EXPECT_FALSE(replyToHello("", servers));
+  SplitMix64 random(5);
+  for (int i = 0; i < 2'000; ++i) {
+    std::string bytes(random.next() % 200, '\0');
+    for (char& c : bytes) c = static_cast<char>(random.next());
+    EXPECT_FALSE(replyToHello(bytes, servers));
+  }
+  EXPECT_EQ(answerTo(hello()).reason(), wire::Refused::REDIRECT);
+  EXPECT_EQ(answerTo(hello()).reason(), wire::Refused::REDIRECT) << "both places are free";
 }
 
 }  // namespace
