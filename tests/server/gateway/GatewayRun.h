@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <future>
 #include <mutex>
 #include <string>
@@ -14,22 +15,50 @@
 
 namespace naiad::test {
 
+/// Return the contents of the page's files.
+inline std::string indexText() {
+  std::string text = "<!doctype html><title>Naiad</title>";
+  for (int i = 0; i < 100; ++i) text += "<p>a line of the page</p>";
+  return text;
+}
+inline std::string wasmBytes() {
+  std::string bytes("\0asm\1\0\0\0", 8);
+  for (unsigned i = 0; i < 300'000; ++i) bytes.push_back(static_cast<char>(i * i >> 3));
+  return bytes;
+}
+
 /// A temporary folder with a page, in which tests also put sockets and keys.
 class GatewayHome {
  public:
-  GatewayHome();
+  GatewayHome() {
+    std::filesystem::create_directories(path("page/folder"));
+    write(path("page/index.html"), indexText());
+    write(path("page/client.wasm"), wasmBytes());
+    write(path("page/font.woff2"), "a font");
+    write(path("page/.hidden"), "secret");
+    write(path("page/folder/other.js"), "secret");
+    write(path("secret.txt"), "secret");
+  }
 
   std::filesystem::path path(const std::string& name) const { return m_folder / name; }
   /// Returns settings of a gateway that listens on a free port and connects to a server with this key.
-  GatewaySettings settings(const ShortKey& key) const;
+  GatewaySettings settings(const ShortKey& key) const {
+    GatewaySettings settings;
+    settings.link = JoinLink{LinkHost{"game.test", kDefaultPort}, "", key};
+    settings.visitors = path("visitors").string();
+    settings.port = 0;
+    settings.page = path("page");
+    settings.name = "A \"game\"";
+    return settings;
+  }
 
  private:
+  static void write(const std::filesystem::path& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+  }
+
   TempFolder m_folder;
 };
-
-/// Return the contents of the page's files.
-std::string indexText();
-std::string wasmBytes();
 
 class GatewayRun {
   template <class Job>
@@ -40,8 +69,19 @@ class GatewayRun {
   }
 
  public:
-  explicit GatewayRun(const GatewaySettings& settings);
-  ~GatewayRun();
+  explicit GatewayRun(const GatewaySettings& settings)
+      : m_gateway(settings,
+                  [this](const std::string& line) {
+                    const std::lock_guard lock(m_mutex);
+                    m_lines.push_back(line);
+                  }),
+        m_port(m_gateway.port()),
+        m_thread([this] { m_gateway.run(); }) {}
+  ~GatewayRun() {
+    if (!m_thread.joinable()) return;
+    stop();
+    m_thread.join();
+  }
   GatewayRun(const GatewayRun&) = delete;
   GatewayRun& operator=(const GatewayRun&) = delete;
 
@@ -60,7 +100,10 @@ class GatewayRun {
   }
   /// Waits until the gateway has ended, without stopping it.
   void join() { m_thread.join(); }
-  std::vector<std::string> lines();
+  std::vector<std::string> lines() {
+    const std::lock_guard lock(m_mutex);
+    return m_lines;
+  }
 
  private:
   std::mutex m_mutex;

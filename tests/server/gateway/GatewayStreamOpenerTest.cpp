@@ -10,19 +10,14 @@
 #include "client/session/GatewayStreamOpener.h"
 #include "shared/net/base/Limits.h"
 #include "tests/server/gateway/FakeGame.h"
-#include "tests/server/gateway/GatewayRun.h"
 #include "tests/shared/net/Loopback.h"
 #include "tests/shared/net/Recorder.h"
 
 namespace naiad::test {
 namespace {
 
-class GatewayStreamOpenerTest : public testing::Test {
+class GatewayStreamOpenerTest : public GatewayFixture {
  protected:
-  void start(FakeGame::OnFrame on_frame = {}) {
-    game = std::make_unique<FakeGame>(home.path("identity"), home.path("visitors"), std::move(on_frame));
-    gateway = std::make_unique<GatewayRun>(home.settings(game->key()));
-  }
   GatewayAddress address() const {
     return *GatewayAddress::parse("http://127.0.0.1:" + std::to_string(gateway->port()));
   }
@@ -46,9 +41,6 @@ class GatewayStreamOpenerTest : public testing::Test {
     return runUntil(context, [&] { return recorder.closed.has_value(); });
   }
 
-  GatewayHome home;
-  std::unique_ptr<FakeGame> game;
-  std::unique_ptr<GatewayRun> gateway;
   asio::io_context context;
   Recorder recorder;
   std::optional<std::string> error;

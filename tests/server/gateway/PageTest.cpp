@@ -61,9 +61,14 @@ class GatewayPage : public testing::Test {
   GatewaySettings settings = home.settings(anyKey());
 };
 
-TEST_F(GatewayPage, FilesHaveContentTypesAndSupportConditionalRequests) {
-  GatewayRun gateway(settings);
-  WebClient browser(gateway.port());
+/// A gateway with these settings, and a browser.
+class ServedPage : public GatewayPage {
+ protected:
+  GatewayRun gateway{settings};
+  WebClient browser{gateway.port()};
+};
+
+TEST_F(ServedPage, FilesHaveContentTypesAndSupportConditionalRequests) {
   const auto index = browser.ask("/");
   ASSERT_TRUE(index);
   EXPECT_EQ(index->status, 200);
@@ -82,9 +87,7 @@ TEST_F(GatewayPage, FilesHaveContentTypesAndSupportConditionalRequests) {
   EXPECT_EQ(gateway.counters().connections, 1u) << "one connection for all of them";
 }
 
-TEST_F(GatewayPage, FilesArePackedForBrowsersThatUnpack) {
-  GatewayRun gateway(settings);
-  WebClient browser(gateway.port());
+TEST_F(ServedPage, FilesArePackedForBrowsersThatUnpack) {
   const auto packed = browser.ask("/", "Accept-Encoding: br, GZIP;q=0.5\r\n");
   ASSERT_TRUE(packed);
   EXPECT_EQ(packed->headers.at("content-encoding"), "gzip");
@@ -102,9 +105,7 @@ TEST_F(GatewayPage, FilesArePackedForBrowsersThatUnpack) {
   EXPECT_EQ(browser.ask("/font.woff2", "Accept-Encoding: gzip\r\n")->body, "a font");
 }
 
-TEST_F(GatewayPage, HeadHasNoBody) {
-  GatewayRun gateway(settings);
-  WebClient browser(gateway.port());
+TEST_F(ServedPage, HeadHasNoBody) {
   browser.get("/client.wasm", "", "HEAD");
   const auto head = browser.reply(false);
   ASSERT_TRUE(head);
@@ -112,23 +113,20 @@ TEST_F(GatewayPage, HeadHasNoBody) {
   EXPECT_EQ(browser.ask("/")->body, indexText()) << "nothing of a body came before it";
 }
 
-TEST_F(GatewayPage, ServerSaysItsNameAndKey) {
-  GatewayRun gateway(settings);
+TEST_F(ServedPage, ServerSaysItsNameAndKey) {
   const auto server = WebClient(gateway.port()).ask("/server");
   ASSERT_TRUE(server);
   EXPECT_EQ(server->headers.at("content-type"), "application/json");
   EXPECT_EQ(server->body, "{\"name\": \"A \\\"game\\\"\", \"key\": \"aaaaaaaaaaaaaaaaaaaaaaaaaa\"}\n");
 }
 
-TEST_F(GatewayPage, EveryAnswerHasTheHeadersThatGuardThePage) {
-  GatewayRun gateway(settings);
-  WebClient browser(gateway.port());
+TEST_F(ServedPage, EveryAnswerHasTheHeadersThatGuardThePage) {
   expectGuarded(browser.ask("/"), 200);
   expectGuarded(browser.ask("/", "If-None-Match: *\r\n"), 304);
   expectGuarded(browser.ask("/server"), 200);
   expectGuarded(browser.ask("/nothing"), 404);
   expectGuarded(browser.ask("/play"), 426);
-  const auto alone = [&gateway](const std::string& bytes) {
+  const auto alone = [this](const std::string& bytes) {
     WebClient client(gateway.port());
     client.send(bytes);
     return client.reply();
@@ -150,8 +148,7 @@ TEST_F(GatewayPage, EveryAnswerHasTheHeadersThatGuardThePage) {
   expectGuarded(stranger.reply(), 403);
 }
 
-TEST_F(GatewayPage, OnlyItsOwnFilesAreThere) {
-  GatewayRun gateway(settings);
+TEST_F(ServedPage, OnlyItsOwnFilesAreThere) {
   for (const char* const path :
        {"/../secret.txt", "/%2e%2e/secret.txt", "/page/../../secret.txt", "/.hidden", "/folder/other.js",
         "/folder", "//", "/index.html/", "/INDEX.HTML", "http://127.0.0.1/../secret.txt", "*", "/..%00/"}) {
@@ -183,8 +180,7 @@ TEST_F(GatewayPage, UnknownHostHeaderIsRejected) {
   EXPECT_EQ(statusFor("Host: localhost:" + port + "\r\nHost: evil.example\r\n"), 421);
 }
 
-TEST_F(GatewayPage, GarbageGetsAnErrorOrNothing) {
-  GatewayRun gateway(settings);
+TEST_F(ServedPage, GarbageGetsAnErrorOrNothing) {
   std::mt19937 random(1);
   for (int i = 0; i < 200; ++i) {
     WebClient client(gateway.port());
@@ -199,8 +195,7 @@ TEST_F(GatewayPage, GarbageGetsAnErrorOrNothing) {
   EXPECT_EQ(WebClient(gateway.port()).ask("/")->status, 200);
 }
 
-TEST_F(GatewayPage, RequestBodyIsRejected) {
-  GatewayRun gateway(settings);
+TEST_F(ServedPage, RequestBodyIsRejected) {
   for (const char* const lines :
        {"Content-Length: 5\r\n", "Transfer-Encoding: chunked\r\n", "Content-Length: 99999999999\r\n"}) {
     WebClient client(gateway.port());
@@ -229,9 +224,7 @@ TEST_F(GatewayPage, SlowRequestHeadTimesOut) {
   EXPECT_EQ(gateway.counters().timeouts, 2u);
 }
 
-TEST_F(GatewayPage, RequestsOfOneConnectionAreBounded) {
-  GatewayRun gateway(settings);
-  WebClient browser(gateway.port());
+TEST_F(ServedPage, RequestsOfOneConnectionAreBounded) {
   int answers = 0;
   while (const auto reply = browser.ask("/server")) {
     ++answers;

@@ -1,4 +1,4 @@
-// The gateway's handling of WebSockets.
+// The gateway's handling of WebSockets, and browsers that play on a real dfserver through it.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
@@ -7,16 +7,18 @@
 #include <thread>
 
 #include "FakeGame.h"
-#include "GatewayRun.h"
 #include "WebClient.h"
 #include "shared/net/base/Limits.h"
+#include "shared/net/stream/Fingerprint.h"
 #include "shared/program/ProcessSetup.h"
+#include "tests/loopback/BusyWorld.h"
+#include "tests/loopback/TestServer.h"
 #include "tests/support/Text.h"
 
 namespace naiad::test {
 namespace {
 
-class GatewayPlay : public testing::Test {
+class GatewayPlay : public GatewayFixture {
  protected:
   static bool echoes(WebClient& browser, const std::string& text) {
     browser.sendFrame(2, text);
@@ -37,19 +39,7 @@ class GatewayPlay : public testing::Test {
     const auto reply = browser.reply();
     return reply ? reply->status : 0;
   }
-
-  /// Starts a game, which echoes frames unless `on_frame` is given, and a gateway to it.
-  void start(FakeGame::OnFrame on_frame = {}, const std::function<void(GatewaySettings&)>& change = {}) {
-    game = std::make_unique<FakeGame>(home.path("identity"), home.path("visitors"), std::move(on_frame));
-    GatewaySettings settings = home.settings(game->key());
-    if (change) change(settings);
-    gateway = std::make_unique<GatewayRun>(settings);
-  }
   static void ignore(ReliableChannel&, const std::string&) {}
-
-  GatewayHome home;
-  std::unique_ptr<FakeGame> game;
-  std::unique_ptr<GatewayRun> gateway;
 };
 
 TEST_F(GatewayPlay, EachWebSocketMessageIsOneFrame) {
@@ -425,6 +415,63 @@ TEST_F(GatewayPlay, GatewayStopsReadingWhileTheServerIsSlow) {
   const auto frames = game->frames();
   for (std::size_t i = 1; i < frames.size(); ++i)
     ASSERT_EQ(frames[i], std::string(kMaxClientFrame, static_cast<char>('a' + (i - 1) % 26))) << i;
+}
+
+class GatewayServer : public testing::Test {
+ protected:
+  HostOptions optionsOf() const {
+    HostOptions options = fastOptions();
+    options.insecure = false;
+    options.identity = home.path("identity");
+    options.visitors = home.path("visitors");
+    options.grace = 60;
+    return options;
+  }
+
+  GatewayHome home;
+  TestServer server{[](df::World& world) { populateBusyWorld(world, 5); }, optionsOf()};
+  GatewayRun gateway{home.settings(ShortKey::of(*server.fingerprint()))};
+};
+
+TEST_F(GatewayServer, BrowsersPlayAndSeeTheWorld) {
+  WebClient ann(gateway.port());
+  WebClient bob(gateway.port());
+  ASSERT_TRUE(ann.join("ann"));
+  ASSERT_TRUE(bob.join("bob"));
+  wire::ClientMessage chat;
+  chat.mutable_chat()->set_text("hello from a browser");
+  chat.set_number(1);
+  ann.sendMessage(chat);
+  bool heard = false;
+  bool seen = false;
+  while (!heard || !seen) {
+    const auto message = bob.message();
+    ASSERT_TRUE(message);
+    heard = heard || (message->has_chat() && message->chat().text() == "hello from a browser");
+    seen = seen || message->has_snapshot();
+  }
+  server.stop("The test is over.");
+  EXPECT_EQ(ann.waitForClose(), 1000) << "it said goodbye";
+}
+
+TEST_F(GatewayServer, ASecondWebSocketIsASecondStream) {
+  WebClient first(gateway.port());
+  ASSERT_TRUE(first.play());
+  first.sendMessage(WebClient::hello("ann"));
+  const auto welcome = first.message();
+  ASSERT_TRUE(welcome && welcome->has_welcome());
+  EXPECT_TRUE(welcome->welcome().second_stream());
+  WebClient second(gateway.port());
+  ASSERT_TRUE(second.play());
+  auto hello = WebClient::hello("ann");
+  hello.mutable_hello()->set_resume_token(welcome->welcome().resume_token());
+  hello.mutable_hello()->set_second_stream(true);
+  second.sendMessage(hello);
+  const auto again = second.message();
+  ASSERT_TRUE(again && again->has_welcome());
+  EXPECT_EQ(again->welcome().player(), welcome->welcome().player());
+  EXPECT_EQ(server.counters().joined, 1u);
+  EXPECT_EQ(gateway.counters().played, 2u);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <fstream>
 
 #include "FakeGame.h"
-#include "GatewayRun.h"
 #include "WebClient.h"
 #include "tests/support/RunningProgram.h"
 #include "tests/support/Text.h"
