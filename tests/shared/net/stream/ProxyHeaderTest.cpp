@@ -2,6 +2,7 @@
 
 #include <asio/ip/address.hpp>
 
+#include "shared/net/stream/ProxiedPeer.h"
 #include "shared/net/stream/ProxyHeader.h"
 
 namespace naiad {
@@ -90,6 +91,19 @@ TEST(ProxyHeader, AddressTextIsParsedStrictly) {
        {"", ":", "192.0.2.7", "192.0.2.7:", "192.0.2.7:0", "192.0.2.7:65536", "192.0.2.7:1x", "2001:db8::7",
         "[192.0.2.7]:9", "localhost:9", "0.0.0.0:9", "[::1:9", "::1]:9"})
     EXPECT_FALSE(proxiedPeerFromText(text)) << text;
+}
+
+TEST(ProxiedPeer, HaveTheSameAddressInEachForm) {
+  for (const char* const text : {"192.0.2.7:50312", "[2001:db8::7]:50313"}) {
+    const auto endpoint = *proxiedPeerFromText(text);
+    const auto address = endpoint.address().is_v6()
+                             ? endpoint.address().to_v6()
+                             : asio::ip::make_address_v6(asio::ip::v4_mapped, endpoint.address().to_v4());
+    const auto visitor = ProxiedPeer::of(address.to_bytes(), endpoint.port());
+    EXPECT_EQ(visitor.name, text);
+    EXPECT_EQ(visitor.prefix, AddressPrefix::of(endpoint.address()));
+    EXPECT_EQ(readProxyHeader(visitor.header), endpoint);
+  }
 }
 
 }  // namespace

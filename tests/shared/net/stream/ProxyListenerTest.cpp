@@ -15,7 +15,6 @@
 #include "shared/net/stream/ProxyListener.h"
 #include "shared/net/stream/TcpListener.h"
 #include "tests/shared/net/Loopback.h"
-#include "tests/shared/net/NoDescriptorsLeft.h"
 #include "tests/support/TempFolder.h"
 
 namespace naiad::test {

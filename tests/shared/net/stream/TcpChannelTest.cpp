@@ -4,6 +4,7 @@
 #include <sys/socket.h>
 
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "TcpFixture.h"
@@ -14,6 +15,7 @@
 namespace naiad::test {
 namespace {
 
+using namespace std::chrono_literals;
 using namespace std::string_literals;
 
 using TcpChannelTest = TcpFixture;
@@ -117,6 +119,199 @@ TEST(IsLoopback, AcceptsOnlyLoopbackAddresses) {
     EXPECT_TRUE(isLoopback(asio::ip::make_address(here))) << here;
   for (const char* there : {"0.0.0.0", "128.0.0.1", "10.0.0.1", "::", "::2", "fe80::1", "::ffff:8.8.8.8"})
     EXPECT_FALSE(isLoopback(asio::ip::make_address(there))) << there;
+}
+
+using TcpChannelEndTest = TcpFixture;
+INSTANTIATE_TEST_SUITE_P(Channel, TcpChannelEndTest, testing::Values(Kind::kPlain, Kind::kTls), nameOf);
+
+TEST_P(TcpChannelEndTest, CloseFlushesQueuedFrames) {
+  ChannelPair pair(context, GetParam());
+  Recorder closer;
+  pair.near->start(closer.callbacks());
+  pair.far->start(recorder.callbacks());
+  for (int i = 0; i < 50; ++i) pair.near->send(std::string(10'000, 'x'));
+  pair.near->close();
+  pair.near->send("too late");
+  EXPECT_TRUE(runUntil(context, [&] { return recorder.closed && closer.closed; }));
+  EXPECT_EQ(recorder.frames.size(), 50u);
+  EXPECT_EQ(recorder.closed, CloseReason::kPeer);
+  EXPECT_EQ(closer.closed, CloseReason::kLocal);
+}
+
+TEST_P(TcpChannelEndTest, ChannelDestroyedAfterCloseStillFlushes) {
+  ChannelPair pair(context, GetParam());
+  pair.far->start(recorder.callbacks());
+  for (int i = 0; i < 50; ++i) pair.near->send(std::string(10'000, 'x'));
+  pair.near->close();
+  pair.near.reset();
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.frames.size(), 50u);
+  EXPECT_EQ(recorder.closed, CloseReason::kPeer);
+}
+
+TEST_P(TcpChannelEndTest, LastFrameReachesAPeerThatIsStillSending) {
+  ChannelPair pair(context, GetParam());
+  pair.near->start({nullptr, nullptr});
+  pair.far->start(recorder.callbacks());
+  for (int i = 0; i < 20; ++i) pair.far->send(std::string(10'000, 'x'));
+  pair.near->send("goodbye");
+  pair.near->close();
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.frames, std::vector{"goodbye"s});
+  EXPECT_EQ(recorder.closed, CloseReason::kPeer);
+}
+
+TEST_P(TcpChannelEndTest, CloseGivesUpWhenThePeerStopsReading) {
+  connect({.close_timeout = 30ms});
+  fillUp();
+  channel->close();
+  EXPECT_FALSE(recorder.closed);
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.closed, CloseReason::kLocal);
+  EXPECT_EQ(peerReads(), ByteStream::Outcome::kBroken);  // a reset: the kernel keeps no unsent data
+}
+
+TEST_P(TcpChannelEndTest, DestroyingWithoutCloseDisconnects) {
+  ChannelPair pair(context, GetParam());
+  pair.far->start(recorder.callbacks());
+  pair.near.reset();
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.closed, CloseReason::kPeer);
+}
+
+TEST_P(TcpChannelEndTest, OrderlyEndOfThePeerIsReportedOnce) {
+  connect({});
+  peerSends("\x05\0hello"s);
+  peerEnds();
+  EXPECT_TRUE(runUntilClosed());
+  channel->close();
+  runReady(context);
+  EXPECT_EQ(recorder.frames, std::vector{"hello"s});
+  EXPECT_EQ(recorder.closed, CloseReason::kPeer);
+  EXPECT_EQ(recorder.closings, 1);
+}
+
+TEST_P(TcpChannelEndTest, FramesFromBeforeAResetAreStillDelivered) {
+  connect({});
+  peerSends("\x05\0hello"s);
+  peerResets();
+  channel->send("anyone?");  // fails before the frame is read
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.frames, std::vector{"hello"s});
+  EXPECT_EQ(recorder.closed, CloseReason::kError);
+}
+
+TEST_P(TcpChannelEndTest, SendingToAResetPeerClosesTheChannel) {
+  connect({});
+  peerResets();
+  for (int i = 0; i < 10; ++i) channel->send("hello?");
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.closed, CloseReason::kError);
+  EXPECT_EQ(channel->unsentBytes(), 0u);
+}
+
+TEST_P(TcpChannelEndTest, MayBeDestroyedInItsFrameCallback) {
+  ChannelPair pair(context, GetParam());
+  int frames = 0;
+  pair.far->start({[&, marker = std::string(100, 'm')](std::string_view) {
+                     ++frames;
+                     pair.far.reset();
+                     EXPECT_EQ(marker.size(), 100u);  // the callback itself still exists
+                   },
+                   [](CloseReason) { FAIL() << "callback after destruction"; }});
+  pair.near->start(recorder.callbacks());
+  pair.near->send("one");
+  pair.near->send("two");
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(frames, 1);
+}
+
+TEST_P(TcpChannelEndTest, MayBeDestroyedInItsClosedCallback) {
+  connect({});
+  ChannelPair pair(context, GetParam());
+  bool closed = false;
+  pair.far->start({nullptr, [&, marker = std::string(100, 'm')](CloseReason) {
+                     pair.far.reset();
+                     closed = marker.size() == 100;
+                   }});
+  pair.near.reset();
+  EXPECT_TRUE(runUntil(context, [&] { return closed; }));
+}
+
+TEST_P(TcpChannelEndTest, NoFrameComesAfterTheHandlerClosed) {
+  ChannelPair pair(context, GetParam());
+  Recorder closer;
+  pair.far->start({[&](std::string_view frame) {
+                     closer.frames.emplace_back(frame);
+                     pair.far->close();
+                     EXPECT_FALSE(closer.closed);
+                   },
+                   [&](CloseReason reason) { closer.closed = reason; }});
+  pair.near->start(recorder.callbacks());
+  pair.near->send("one");
+  pair.near->send("two");
+  EXPECT_TRUE(runUntil(context, [&] { return closer.closed && recorder.closed; }));
+  EXPECT_EQ(closer.frames, std::vector{"one"s});
+  EXPECT_EQ(closer.closed, CloseReason::kLocal);
+}
+
+TEST_P(TcpChannelEndTest, EndBeforeStartIsReportedAfterStart) {
+  makeChannel({.close_timeout = 1h});
+  channel->close();
+  peerEnds();
+  runReady(context);
+  channel->start(recorder.callbacks());
+  EXPECT_FALSE(recorder.closed);
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(recorder.closed, CloseReason::kLocal);
+}
+
+TEST_P(TcpChannelEndTest, UnstartedClosedChannelEndsWithItsPeer) {
+  makeChannel({.close_timeout = 1h});
+  channel->close();
+  channel.reset();
+  peerEnds();
+  EXPECT_TRUE(runUntil(context, [&] { return context.stopped(); }));  // no operation is pending
+}
+
+TEST_P(TcpChannelEndTest, PeerAddressIsKnownAfterTheEnd) {
+  connect({});
+  sockaddr_in local{};
+  socklen_t size = sizeof local;
+  ASSERT_EQ(getsockname(peer->socket().native_handle(), reinterpret_cast<sockaddr*>(&local), &size), 0);
+  const std::string expected = "127.0.0.1:" + std::to_string(ntohs(local.sin_port));
+  EXPECT_EQ(channel->peerAddress(), expected);
+  peerEnds();
+  EXPECT_TRUE(runUntilClosed());
+  EXPECT_EQ(channel->peerAddress(), expected);
+}
+
+TEST_P(TcpChannelEndTest, CloseReasonDependsOnHowThePeerEnded) {
+  const std::vector<std::string> none, hello{"hello"};
+  const CloseReason torn_off = encrypted() ? CloseReason::kError : CloseReason::kPeer;
+  const struct {
+    const char* name;
+    std::string sent;
+    void (TcpFixture::*end)();
+    std::vector<std::string> frames;
+    CloseReason reason;
+  } rows[] = {
+      {"a reset", "", &TcpFixture::peerResets, none, CloseReason::kError},
+      {"within a frame", "\x05\0hel"s, &TcpFixture::peerEnds, none, CloseReason::kProtocol},
+      {"without a word between frames", "\x05\0hello"s, &TcpFixture::peerVanishes, hello, torn_off},
+      {"without a word within one", "\x05\0hel"s, &TcpFixture::peerVanishes, none, CloseReason::kProtocol},
+      {"an empty frame", "\0\0"s, nullptr, none, CloseReason::kProtocol}};
+  for (const auto& row : rows) {
+    SCOPED_TRACE(row.name);
+    channel.reset();
+    recorder = {};
+    connect({});
+    peerSends(row.sent);
+    if (row.end != nullptr) (this->*row.end)();
+    EXPECT_TRUE(runUntilClosed());
+    EXPECT_EQ(recorder.frames, row.frames);
+    EXPECT_EQ(recorder.closed, row.reason);
+  }
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 
 #include "shared/net/stream/TcpListener.h"
 #include "tests/shared/net/Loopback.h"
-#include "tests/shared/net/NoDescriptorsLeft.h"
 #include "tests/shared/net/Recorder.h"
 
 namespace naiad::test {

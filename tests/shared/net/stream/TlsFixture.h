@@ -2,20 +2,97 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <openssl/err.h>
+#include <openssl/ssl.h>
 
 #include <array>
+#include <asio/write.hpp>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "RawTls.h"
 #include "shared/net/stream/TcpConnector.h"
 #include "shared/net/stream/TcpListener.h"
 #include "tests/shared/net/Loopback.h"
 #include "tests/shared/net/Recorder.h"
 
 namespace naiad::test {
+
+/// Offers this ALPN name, or none if it is empty. May be called in RawTls's `adjust`.
+inline void offerAlpn(SSL_CTX* context, std::string_view name) {
+  const std::string list = name.empty() ? "" : static_cast<char>(name.size()) + std::string(name);
+  SSL_CTX_set_alpn_protos(context, reinterpret_cast<const unsigned char*>(list.data()),
+                          static_cast<unsigned int>(list.size()));
+}
+
+/// The client's end of a TLS connection with OpenSSL alone. The test chooses its settings and carries its
+/// bytes.
+class RawTls {
+ public:
+  /// Makes a client with ALPN "naiad/1" unless `adjust` changes that.
+  explicit RawTls(const std::function<void(SSL_CTX*)>& adjust = nullptr)
+      : m_context(SSL_CTX_new(TLS_client_method())) {
+    offerAlpn(m_context, kAlpn);
+    if (adjust) adjust(m_context);
+    m_ssl = SSL_new(m_context);
+    SSL_set_bio(m_ssl, BIO_new(BIO_s_mem()), BIO_new(BIO_s_mem()));
+    SSL_set_connect_state(m_ssl);
+  }
+  ~RawTls() {
+    SSL_free(m_ssl);
+    SSL_CTX_free(m_context);
+  }
+  RawTls(const RawTls&) = delete;
+  RawTls& operator=(const RawTls&) = delete;
+
+  /// Continues the handshake. Returns the bytes to send next.
+  std::string advance() {
+    ERR_clear_error();
+    if (!done()) m_result = SSL_do_handshake(m_ssl);
+    m_failed = m_failed || (!done() && SSL_get_error(m_ssl, m_result) != SSL_ERROR_WANT_READ);
+    std::string out(BIO_ctrl_pending(SSL_get_wbio(m_ssl)), '\0');
+    if (!out.empty()) BIO_read(SSL_get_wbio(m_ssl), out.data(), static_cast<int>(out.size()));
+    return out;
+  }
+  /// Reads what has arrived on `socket`. Returns the number of bytes, and the reason if it is 0.
+  std::size_t receive(tcp::socket& socket, std::error_code& error) {
+    std::array<char, 4096> in;
+    const std::size_t size = socket.read_some(asio::buffer(in), error);
+    BIO_write(SSL_get_rbio(m_ssl), in.data(), static_cast<int>(size));
+    return size;
+  }
+  /// Exchanges bytes with a server on `socket` (made non-blocking) until the handshake succeeds or fails.
+  void shakeHands(asio::io_context& context, tcp::socket& socket) {
+    std::error_code error;
+    socket.non_blocking(true);
+    EXPECT_TRUE(runUntil(context, [&] {
+      const std::string out = advance();
+      if (!out.empty()) asio::write(socket, asio::buffer(out), error);
+      receive(socket, error);
+      const bool over = error && error != asio::error::would_block;
+      if (over && !done()) m_failed = true;
+      return done() || m_failed;
+    }));
+  }
+  /// Receives on a non-blocking socket and decrypts up to `most` bytes. Returns their number, 0 or less if
+  /// none.
+  int read(tcp::socket& socket, char* bytes, int most) {
+    std::error_code ignored;
+    receive(socket, ignored);
+    return SSL_read(m_ssl, bytes, most);
+  }
+
+  bool done() const { return m_result == 1; }
+  bool failed() const { return m_failed; }
+  SSL* ssl() const { return m_ssl; }
+
+ private:
+  SSL_CTX* m_context;
+  SSL* m_ssl;
+  int m_result = 0;
+  bool m_failed = false;
+};
 
 /// Holds the result of a connector.
 struct ConnectFixture : testing::Test {
@@ -28,6 +105,15 @@ struct ConnectFixture : testing::Test {
   }
   bool runUntilDone() {
     return runUntil(context, [&] { return calls > 0; });
+  }
+  /// Connects and waits for the result. `where` is a port or a list of endpoints.
+  template <class Where>
+  void connect(TcpConnector& by, const std::string& host, const Where& where,
+               std::chrono::milliseconds timeout = std::chrono::seconds(20)) {
+    calls = 0;
+    by.connect(host, where, timeout, done());
+    EXPECT_EQ(calls, 0);
+    EXPECT_TRUE(runUntilDone()) << host;
   }
 
   asio::io_context context;

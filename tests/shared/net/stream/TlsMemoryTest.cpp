@@ -3,7 +3,6 @@
 #include <malloc.h>
 #include <openssl/crypto.h>
 
-#include <asio/write.hpp>
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>

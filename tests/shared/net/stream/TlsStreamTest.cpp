@@ -1,8 +1,8 @@
-// Events after the handshake on an encrypted stream that plain streams do not have.
+// Events after the handshake on an encrypted stream that plain streams do not have, and the secrets that both
+// ends export.
 #include <gtest/gtest.h>
 
-#include <array>
-#include <asio/write.hpp>
+#include <set>
 
 #include "TlsFixture.h"
 #include "shared/net/stream/Framing.h"
@@ -34,9 +34,7 @@ struct TlsStreamTest : TlsFixture {
     std::string got;
     EXPECT_TRUE(runUntil(context, [&] {
       std::array<char, 4096> in;
-      std::error_code ignored;
-      client.feed({in.data(), socket.read_some(asio::buffer(in), ignored)});
-      const int read = SSL_read(client.ssl(), in.data(), in.size());
+      const int read = client.read(socket, in.data(), in.size());
       if (read > 0) got.append(in.data(), static_cast<std::size_t>(read));
       return got.size() >= size;
     }));
@@ -98,13 +96,47 @@ TEST_F(TlsStreamTest, CloseSendsCloseNotify) {
   accepted[0]->close();
   EXPECT_EQ(clientReads(5), "\x03\0bye"s);
   EXPECT_TRUE(runUntil(context, [&] {
-    std::array<char, 4096> in;
-    std::error_code ignored;
-    client.feed({in.data(), socket.read_some(asio::buffer(in), ignored)});
     char byte = 0;
-    SSL_read(client.ssl(), &byte, 1);
+    client.read(socket, &byte, 1);
     return (SSL_get_shutdown(client.ssl()) & SSL_RECEIVED_SHUTDOWN) != 0;
   }));
+}
+
+constexpr std::string_view kLabel = "EXPERIMENTAL-naiad-datagram";
+
+/// Expects secrets that are equal at both ends and different for each use.
+void expectSecrets(const ReliableChannel& near, const ReliableChannel& far, std::set<std::string>& seen) {
+  for (const auto& [label, text, bytes] :
+       {std::tuple(kLabel, "one", 88), std::tuple(kLabel, "two", 88), std::tuple(kLabel, "", 88),
+        std::tuple(std::string_view("EXPERIMENTAL-other"), "one", 88), std::tuple(kLabel, "one", 32)}) {
+    const std::string secret = near.exportSecret(label, text, static_cast<std::size_t>(bytes));
+    EXPECT_EQ(secret.size(), static_cast<std::size_t>(bytes));
+    EXPECT_EQ(secret, near.exportSecret(label, text, static_cast<std::size_t>(bytes)));
+    EXPECT_EQ(secret, far.exportSecret(label, text, static_cast<std::size_t>(bytes)));
+    EXPECT_TRUE(seen.insert(secret.substr(0, 32)).second) << label << ' ' << text << ' ' << bytes;
+  }
+}
+
+TEST(ExportSecret, BothTlsEndsShareAUniqueSecret) {
+  asio::io_context context;
+  std::set<std::string> seen;
+  for (int connection = 0; connection < 2; ++connection) {
+    const ChannelPair pair(context, Kind::kTls);
+    expectSecrets(*pair.near, *pair.far, seen);
+  }
+}
+
+TEST(ExportSecret, IsEmptyWithoutEncryptionAndAfterTheEnd) {
+  asio::io_context context;
+  const ChannelPair plain(context, Kind::kPlain);
+  EXPECT_EQ(plain.near->exportSecret(kLabel, "one", 32), "");
+  ChannelPair pair(context, Kind::kTls);
+  Recorder recorder;
+  pair.far->start(recorder.callbacks());
+  pair.near.reset();
+  EXPECT_TRUE(runUntil(context, [&] { return recorder.closed.has_value(); }));
+  EXPECT_EQ(recorder.closed, CloseReason::kPeer);
+  EXPECT_EQ(pair.far->exportSecret(kLabel, "one", 32), "");
 }
 
 }  // namespace
