@@ -3,8 +3,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "AddressedChannel.h"
-
 namespace naiad::soak {
 
 namespace {
@@ -82,12 +80,11 @@ std::unique_ptr<ClientSession> Bot::makeSession(std::unique_ptr<ReliableChannel>
 void Bot::attach() {
   m_pending.link = std::make_unique<VirtualStreamLink>(m_place.clock, LinkConditions{}, m_random.next());
   applyTo(m_pending);
-  auto channel =
-      std::make_unique<AddressedChannel>(m_pending.link->takeEnd(LinkEnd::kClient), toString(m_place.server));
+  auto channel = m_pending.link->takeEnd(LinkEnd::kClient, toString(m_place.server));
   ReliableChannel& started = *channel;
   const ReliableChannel* p_channel = channel.get();
-  m_place.host.accept(std::make_unique<AddressedChannel>(m_pending.link->takeEnd(LinkEnd::kServer),
-                                                         "10.1.0.1:" + std::to_string(1000 + m_number)));
+  m_place.host.accept(
+      m_pending.link->takeEnd(LinkEnd::kServer, "10.1.0.1:" + std::to_string(1000 + m_number)));
   m_pending.session = makeSession(std::move(channel), m_pending);
   m_pending.session->onAfterSnapshot(
       [this, p_session = m_pending.session.get()](const SnapshotHeader& header, const AckWindow& acks) {

@@ -1,6 +1,5 @@
 #include "Judge.h"
 
-#include <array>
 #include <cstdio>
 
 #include "engine/world/Capture.h"

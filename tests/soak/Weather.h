@@ -1,7 +1,6 @@
 // Random network conditions of one client, drawn again from time to time.
 #pragma once
 
-#include <chrono>
 #include <optional>
 
 #include "shared/values/SplitMix64.h"

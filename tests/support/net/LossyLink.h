@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "shared/net/base/Channel.h"
 #include "tests/support/net/LinkConditions.h"
@@ -58,8 +59,8 @@ class VirtualStreamLink {
   VirtualStreamLink(VirtualClock& clock, const LinkConditions& conditions, std::uint64_t seed);
   ~VirtualStreamLink();
 
-  /// Hands over one end. Throws std::logic_error if it was taken before.
-  std::unique_ptr<ReliableChannel> takeEnd(LinkEnd end);
+  /// Hands over one end, whose peer has this address. Throws std::logic_error if it was taken before.
+  std::unique_ptr<ReliableChannel> takeEnd(LinkEnd end, const std::string& peer = "virtual");
 
   /// Sets the conditions of frames that leave, and of losses that happen, from now on.
   void setConditions(LinkEnd from, const LinkConditions& conditions);

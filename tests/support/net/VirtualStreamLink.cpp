@@ -258,17 +258,15 @@ void VirtualStreamLink::State::report(Side& side) {
 
 class VirtualStreamLink::Channel : public ReliableChannel {
  public:
-  Channel(std::shared_ptr<State> state, LinkEnd end)
-      : state_(std::move(state)), side_(state_->at(end)), end_(end) {}
+  Channel(std::shared_ptr<State> state, LinkEnd end, std::string peer)
+      : state_(std::move(state)), side_(state_->at(end)), peer_(std::move(peer)) {}
   ~Channel() override { state_->abandon(side_); }
 
   void start(Callbacks callbacks) override { state_->start(side_, std::move(callbacks)); }
   void send(std::string_view frame) override { state_->send(side_, frame); }
   std::size_t unsentBytes() const override { return side_.phase == Phase::kClosed ? 0 : side_.queued; }
   void close() override { state_->close(side_); }
-  std::string peerAddress() const override {
-    return end_ == LinkEnd::kClient ? "virtual:server" : "virtual:client";
-  }
+  std::string peerAddress() const override { return peer_; }
   void setReceiveLimit(std::size_t bytes) override { side_.receive_limit = bytes; }
   std::string exportSecret(std::string_view label, std::string_view context,
                            std::size_t bytes) const override {
@@ -278,7 +276,7 @@ class VirtualStreamLink::Channel : public ReliableChannel {
  private:
   std::shared_ptr<State> state_;
   Side& side_;
-  LinkEnd end_;
+  std::string peer_;
 };
 
 VirtualStreamLink::VirtualStreamLink(VirtualClock& clock, const LinkConditions& conditions,
@@ -289,9 +287,9 @@ VirtualStreamLink::VirtualStreamLink(VirtualClock& clock, const LinkConditions& 
 
 VirtualStreamLink::~VirtualStreamLink() = default;
 
-std::unique_ptr<ReliableChannel> VirtualStreamLink::takeEnd(LinkEnd end) {
+std::unique_ptr<ReliableChannel> VirtualStreamLink::takeEnd(LinkEnd end, const std::string& peer) {
   if (std::exchange(state_->at(end).taken, true)) throw std::logic_error("this end was taken already");
-  return std::make_unique<Channel>(state_, end);
+  return std::make_unique<Channel>(state_, end, peer);
 }
 
 void VirtualStreamLink::setConditions(LinkEnd from, const LinkConditions& conditions) {
