@@ -1,14 +1,12 @@
 #include "Figures.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <map>
 #include <optional>
 #include <set>
-#include <utility>
 
 #include "../server/games/HostedGame.h"
 #include "Player.h"
@@ -217,32 +215,35 @@ class Impatience {
   int m_lift = 0;
 };
 
-bool isThere(df::World&, df::Box box, const char* type) {
-  const df::ObjectList there = WM.objectsInBox(box);
-  for (int i = 0; i < there.getCount(); ++i)
-    if (there[i]->getType() == type) return true;
-  return false;
+/// Plays for this many ticks with the keys that `think` chooses for each.
+PlayFigures play(Typist& typist, int ticks,
+                 const std::function<Keys(int tick, Hands& hands, PlayFigures& figures)>& think) {
+  PlayFigures figures;
+  Hands hands(typist);
+  for (int t = 0; t < ticks; ++t) {
+    hands.want(think(t, hands, figures));
+    typist.tick();
+  }
+  return figures;
 }
 
 /// Runs to the right and jumps over gaps and spikes.
 PlayFigures playPlatformer(df::World& world, std::uint32_t ann, Typist& typist, df::Random& random) {
-  PlayFigures figures;
-  Hands hands(typist);
   Impatience impatience;
   double before = 0, ahead = 1.5;
   bool moved = false;
   int score = 0;
-  for (int t = 0; t < kMinute; ++t) {
+  return play(typist, kMinute, [&](int, Hands& hands, PlayFigures& figures) {
     const df::Object* p_runner = objectOf(world, ann);
     Keys keys;
     if (p_runner != nullptr) {
       const df::Vector at = p_runner->getPosition();
       const bool moves = at.x() > before;
-      const bool step = isThere(world, df::Box(at + df::Vector(0.6, -0.3), 1, 0.6), "Ground");
+      const bool step = isThere(df::Box(at + df::Vector(0.6, -0.3), 1, 0.6), "Ground");
       // People do not always jump at an equal distance.
       if (moves != moved) ahead = 0.3 + 0.05 * random.below(8);
-      const bool gap = !isThere(world, df::Box(at + df::Vector(ahead, 0.6), 0.9, 1), "Ground");
-      const bool sharp = isThere(world, df::Box(at + df::Vector(0.6, -0.3), ahead + 1.2, 0.6), "Spikes");
+      const bool gap = !isThere(df::Box(at + df::Vector(ahead, 0.6), 0.9, 1), "Ground");
+      const bool sharp = isThere(df::Box(at + df::Vector(0.6, -0.3), ahead + 1.2, 0.6), "Spikes");
       const bool flies = p_runner->getVelocity().y() != 0;
       if (!impatience.gaveUp(true, moves, hands.age(Key::RIGHTARROW))) keys.insert(Key::RIGHTARROW);
       if ((step || ((gap || sharp) && moves)) && !flies) keys.insert(Key::SPACE);
@@ -256,20 +257,16 @@ PlayFigures playPlatformer(df::World& world, std::uint32_t ann, Typist& typist, 
       before = at.x();
       moved = moves;
     }
-    hands.want(keys);
-    typist.tick();
-  }
-  return figures;
+    return keys;
+  });
 }
 
 /// Keeps the paddle under the ball: taps if it is near, holds if it is far.
 PlayFigures playBreakout(df::World& world, std::uint32_t ann, Typist& typist, df::Random&) {
-  PlayFigures figures;
-  Hands hands(typist);
   Key way = df::Keyboard::UNDEFINED_KEY;
   bool flew = false;
   int bricks = world.objects().objectsOfType("Brick").getCount();
-  for (int t = 0; t < kMinute; ++t) {
+  return play(typist, kMinute, [&](int t, Hands&, PlayFigures& figures) {
     const df::ObjectList balls = world.objects().objectsOfType("Ball");
     const df::Object* p_paddle = objectOf(world, ann);
     Keys keys;
@@ -292,10 +289,8 @@ PlayFigures playBreakout(df::World& world, std::uint32_t ann, Typist& typist, df
     const int now = world.objects().objectsOfType("Brick").getCount();
     figures.good += std::max(bricks - now, 0);
     bricks = now;
-    hands.want(keys);
-    typist.tick();
-  }
-  return figures;
+    return keys;
+  });
 }
 
 std::optional<df::Vector> nearestPad(df::World& world, double x) {
@@ -315,11 +310,9 @@ std::optional<df::Vector> nearestPad(df::World& world, double x) {
 
 /// Flies by the instruments: first across, then down, slower near the ground.
 PlayFigures playLander(df::World& world, std::uint32_t ann, Typist& typist, df::Random&) {
-  PlayFigures figures;
-  Hands hands(typist);
   bool wrecked = false;
   int score = 0;
-  for (int t = 0; t < 2 * kMinute; ++t) {
+  return play(typist, 2 * kMinute, [&](int, Hands&, PlayFigures& figures) {
     const df::Object* p_ship = objectOf(world, ann);
     Keys keys;
     if (p_ship != nullptr) {
@@ -339,19 +332,15 @@ PlayFigures playLander(df::World& world, std::uint32_t ann, Typist& typist, df::
     const int now = world.views().player(ann)->getScore();
     if (now > score) ++figures.good;
     score = now;
-    hands.want(keys);
-    typist.tick();
-  }
-  return figures;
+    return keys;
+  });
 }
 
 /// Moves to the row of the nearest saucer and shoots.
 PlayFigures playSaucerShoot(df::World& world, std::uint32_t ann, Typist& typist, df::Random&) {
-  PlayFigures figures;
-  Hands hands(typist);
   bool lost = false;
   int score = 0;
-  for (int t = 0; t < kMinute; ++t) {
+  return play(typist, kMinute, [&](int t, Hands&, PlayFigures& figures) {
     const df::Object* p_ship = objectOf(world, ann);
     Keys keys;
     if (p_ship == nullptr) {
@@ -375,10 +364,8 @@ PlayFigures playSaucerShoot(df::World& world, std::uint32_t ann, Typist& typist,
       figures.good += std::max(now - score, 0);
       score = now;
     }
-    hands.want(keys);
-    typist.tick();
-  }
-  return figures;
+    return keys;
+  });
 }
 
 }  // namespace
@@ -389,12 +376,12 @@ PlayFigures playGame(const std::string& game, const KeyMethod& method,
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     withPlayer(game, seed, [&](df::World& world, std::uint32_t ann) {
       Typist typist(world, ann, method, keyboard);
-      const auto play = game == "platformer" ? playPlatformer
-                        : game == "breakout" ? playBreakout
-                        : game == "lander"   ? playLander
-                                             : playSaucerShoot;
+      const auto bot = game == "platformer" ? playPlatformer
+                       : game == "breakout" ? playBreakout
+                       : game == "lander"   ? playLander
+                                            : playSaucerShoot;
       df::Random random(seed);
-      const PlayFigures figures = play(world, ann, typist, random);
+      const PlayFigures figures = bot(world, ann, typist, random);
       sum.good += figures.good;
       sum.bad += figures.bad;
     });

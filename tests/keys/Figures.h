@@ -2,7 +2,6 @@
 // terminal that reports releases, and with simulated players.
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <vector>
 

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "Fingers.h"
 #include "GameMains.h"
 #include "HostedGame.h"
 

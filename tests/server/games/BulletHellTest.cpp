@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <array>
 #include <vector>
 
-#include "Fingers.h"
 #include "GameMains.h"
 #include "HostedGame.h"
 

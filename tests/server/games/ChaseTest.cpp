@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "Fingers.h"
 #include "GameMains.h"
 #include "HostedGame.h"
 #include "utility.h"

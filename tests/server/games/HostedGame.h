@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -67,5 +68,34 @@ inline void tap(df::World& world, std::uint32_t player, df::Keyboard::Key key) {
   world.input().key(player, key, df::KEY_PRESSED);
   world.input().key(player, key, df::KEY_RELEASED);
 }
+
+/// True if an Object of this type is in the box.
+inline bool isThere(df::Box box, const char* type) {
+  const df::ObjectList there = WM.objectsInBox(box);
+  for (int i = 0; i < there.getCount(); ++i)
+    if (there[i]->getType() == type) return true;
+  return false;
+}
+
+/// The keys that a bot holds down, sent to the world as a client would send them.
+class Fingers {
+ public:
+  Fingers(df::World& world, std::uint32_t player) : m_world(world), m_player(player) {}
+
+  /// Holds these keys down and releases all others.
+  void hold(const std::set<df::Keyboard::Key>& keys) {
+    for (const df::Keyboard::Key key : m_down) {
+      if (!keys.contains(key)) m_world.input().key(m_player, key, df::KEY_RELEASED);
+    }
+    for (const df::Keyboard::Key key : keys)
+      m_world.input().key(m_player, key, m_down.contains(key) ? df::KEY_DOWN : df::KEY_PRESSED);
+    m_down = keys;
+  }
+
+ private:
+  df::World& m_world;
+  std::uint32_t m_player;
+  std::set<df::Keyboard::Key> m_down;
+};
 
 }  // namespace naiad

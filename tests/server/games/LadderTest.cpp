@@ -1,12 +1,15 @@
 // Properties of all shipped games: players press random keys, join and leave at random, and after 1,000 ticks
-// the hash of their pictures is equal for every compiler.
+// the hash of their pictures is equal for every compiler. Their help texts fit.
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <filesystem>
+#include <set>
 
 #include "GameMains.h"
 #include "HostedGame.h"
 #include "RandomPlayers.h"
+#include "shared/net/base/Limits.h"
 #include "tests/support/Sanitizers.h"
 
 namespace naiad {
@@ -74,6 +77,34 @@ INSTANTIATE_TEST_SUITE_P(
                       Game{"platformer", 0x821a44b3bea0d158}, Game{"sandbox", 0x6ee2df9e4463e198},
                       Game{"saucershoot", 0x6e8fab27e05d1b2f}, Game{"tron", 0x55e0d957d53b5a66}),
     [](const auto& game) { return std::string(game.param.name); });
+
+TEST(Help, EveryGamesHelpFitsItsWindowAndProtocol) {
+  for (const auto& [game, game_main] : gameMains()) {
+    const std::string name = game;  // because clang cannot capture structured bindings
+    bool played = false;
+    hostGame(
+        game_main, 1,
+        [&](df::World& world) {
+          played = true;
+          EXPECT_FALSE(world.getHelp().empty()) << name;
+          EXPECT_LE(world.getHelp().size(), kMaxHelpLines) << name;
+          for (const std::string& line : world.getHelp()) {
+            EXPECT_LE(line.size(), kMaxHelpLength) << name << ": " << line;
+            EXPECT_LE(static_cast<int>(line.size()), world.views().width()) << name << ": " << line;
+          }
+        },
+        name);
+    EXPECT_TRUE(played) << name;
+  }
+}
+
+TEST(Help, TestsCoverEveryGameFolder) {
+  std::set<std::string> folders, names;
+  for (const auto& entry : std::filesystem::directory_iterator(NAIAD_SOURCE_DIR "/server/games"))
+    if (entry.is_directory()) folders.insert(entry.path().filename());
+  for (const auto& [name, game_main] : gameMains()) names.insert(name);
+  EXPECT_EQ(names, folders);
+}
 
 }  // namespace
 }  // namespace naiad

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "Fingers.h"
 #include "GameMains.h"
 #include "HostedGame.h"
 
@@ -8,13 +7,6 @@ namespace naiad {
 namespace {
 
 using namespace df;
-
-bool isThere(Box box, const char* type) {
-  const ObjectList there = WM.objectsInBox(box);
-  for (int i = 0; i < there.getCount(); ++i)
-    if (there[i]->getType() == type) return true;
-  return false;
-}
 
 /// Returns the keys to run to the right, and to jump in front of steps, gaps and spikes.
 std::set<Keyboard::Key> run(const Object& runner) {
