@@ -56,7 +56,6 @@ class Manager:
                 return said
         raise AssertionError(f"{wanted} was not said within {PATIENCE} s, but {self.heard}")
 
-
     def drain(self):
         """Discards the notifications received so far."""
         self.socket.setblocking(False)

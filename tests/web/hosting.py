@@ -1,5 +1,6 @@
 """A real dfserver with a real dfweb in front of it, on free ports of loopback."""
 
+import contextlib
 import json
 import os
 import re
@@ -11,7 +12,7 @@ import threading
 import time
 
 
-class PathProxy:
+class PathProxy(contextlib.AbstractContextManager):
     """A proxy that serves a web server below a path, as nginx and caddy do: removes the path from requests, and redirects
     from the path without '/'. Set `port_behind` to the web server's port. Use as a context."""
 
@@ -61,14 +62,11 @@ class PathProxy:
         except OSError:
             pass  # one end has closed the connection
 
-    def __enter__(self):
-        return self
-
     def __exit__(self, *_):
         self.listener.close()
 
 
-class Hosting:
+class Hosting(contextlib.AbstractContextManager):
     """Runs both programs. `page` is the folder that dfweb serves, `gateway` its further arguments. Use as a context."""
 
     def __init__(self, build, page, *arguments, gateway=()):
@@ -147,9 +145,6 @@ class Hosting:
                 program.kill()
                 program.wait()
         shutil.rmtree(self.folder, ignore_errors=True)
-
-    def __enter__(self):
-        return self
 
     def __exit__(self, *_):
         self.close()

@@ -41,11 +41,16 @@ def wait_for(browser, text):
     browser.wait("const rows = (() => {" + SHOWN + "})(); return rows.some((row) => row.includes(arguments[0]));", text)
 
 
-def join(browser, hosting, name="Ada", search=""):
-    browser.open(hosting.address + search + "#" + hosting.key)
+def play(browser, address):
+    """Opens the page and presses its button, once it can be pressed."""
+    browser.open(address)
     browser.wait("return document.querySelector('#play').disabled === false && document.querySelector('#title').textContent !== 'Naiad'")
-    browser.run("document.querySelector('#name').value = arguments[0]", name)
+    browser.run("document.querySelector('#name').value = 'Ada'")
     browser.click("#play")
+
+
+def join(browser, hosting, search=""):
+    play(browser, hosting.address + search + "#" + hosting.key)
     browser.wait("return document.body.classList.contains('playing') && window.naiad.picture.shown.length > 0")
 
 
@@ -137,10 +142,7 @@ class PageTest(unittest.TestCase):
 
     def test_a_password_is_asked_for(self):
         with Hosting(BUILD, page(), "--game", "saucershoot", "--password", "sesame") as hosting:
-            self.browser.open(hosting.address)
-            self.browser.wait("return document.querySelector('#play').disabled === false && document.querySelector('#title').textContent !== 'Naiad'")
-            self.browser.run("document.querySelector('#name').value = 'Ada'")
-            self.browser.click("#play")
+            play(self.browser, hosting.address)
             self.browser.wait("return !document.querySelector('#secret').hidden")
             self.browser.type("#password", "sesame")
             self.browser.click("#play")
@@ -258,10 +260,7 @@ class PageTest(unittest.TestCase):
                 self.browser.open(hosting.address + "?room=" + name + "#" + hosting.key)
                 self.browser.wait("return document.querySelector('#said').textContent.includes('invalid room name')")
                 self.assertTrue(self.browser.run("return document.querySelector('#play').disabled"), name)
-            self.browser.open(hosting.address + "?room=arcad#" + hosting.key)
-            self.browser.wait("return document.querySelector('#play').disabled === false")
-            self.browser.run("document.querySelector('#name').value = 'Ada'")
-            self.browser.click("#play")
+            play(self.browser, hosting.address + "?room=arcad#" + hosting.key)
             self.browser.wait("return document.querySelector('#said').textContent.includes('did you mean \"arcade\"')")
 
     def test_a_browser_without_webassembly_gets_a_sentence(self):

@@ -1,6 +1,7 @@
 """A browser driven by chromedriver, which speaks the WebDriver protocol (W3C) as JSON over HTTP."""
 
 import base64
+import contextlib
 import json
 import os
 import shutil
@@ -21,7 +22,7 @@ class BrowserError(Exception):
     pass
 
 
-class Browser:
+class Browser(contextlib.AbstractContextManager):
     """One chromium with one window or several. Use as a context."""
 
     def __init__(self, width=1000, height=700, arguments=(), patience=60):
@@ -120,9 +121,6 @@ class Browser:
         self.driver.wait()
         self.log.close()
         shutil.rmtree(self.folder, ignore_errors=True)
-
-    def __enter__(self):
-        return self
 
     def __exit__(self, *_):
         self.close()
