@@ -1,4 +1,5 @@
 // Answers of web servers: the result does not depend on how they are split. Ambiguous answers are rejected.
+// The start line of requests.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -193,6 +194,22 @@ TEST(HttpResponseReader, EndlessAnswerIsReadInPieces) {
     ASSERT_EQ(reader.popBody(), "abcdefg\n") << i;
   }
   EXPECT_TRUE(reader.body().empty());
+}
+
+TEST(HttpRequestLine, HasMethodAndTarget) {
+  const auto request = HttpRequestLine::parse("GET /metrics?a=b HTTP/1.1");
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->method, "GET");
+  EXPECT_EQ(request->target, "/metrics?a=b");
+  EXPECT_TRUE(HttpRequestLine::parse("OPTIONS * HTTP/1.0"));
+}
+
+TEST(HttpRequestLine, RefusesMalformedLines) {
+  for (const char* const line :
+       {"", " ", "  ", "GET", "GET /", "GET / ", "GET  HTTP/1.1", "GET / HTTP/1.2", "GET / HTTP/2",
+        "GET / http/1.1", "GET /a b HTTP/1.1", "GET  / HTTP/1.1", " GET / HTTP/1.1", "G\tT / HTTP/1.1",
+        "GET /\t HTTP/1.1", "GET /\xc3\xa4 HTTP/1.1", "GET / HTTP/1.1 ", "/ HTTP/1.1"})
+    EXPECT_FALSE(HttpRequestLine::parse(line)) << line;
 }
 
 }  // namespace
