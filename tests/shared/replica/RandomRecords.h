@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <string>
 
 #include "shared/replica/Limits.h"
 #include "shared/replica/SnapshotCodec.h"

@@ -43,8 +43,11 @@ void apply(Replica& replica, std::uint32_t number, std::uint32_t tick, Records r
   replica.apply(snapshot);
 }
 
-TEST(Replica, DrawsByAltitudeThenCreationOrderThenTexts) {
+struct ReplicaTest : testing::Test {
   Replica replica;
+};
+
+TEST_F(ReplicaTest, DrawsByAltitudeThenCreationOrderThenTexts) {
   apply(replica, 1, 0, birth(1, 1, character(3, 1, U'b', 2, 20)));
   apply(replica, 2, 0, birth(2, 1, character(3, 1, U'a', 2, 10)));
   apply(replica, 3, 0, birth(3, 1, character(3, 1, U'c', 1, 30)));
@@ -58,8 +61,7 @@ TEST(Replica, DrawsByAltitudeThenCreationOrderThenTexts) {
   EXPECT_EQ(replica.render(0).at(3, 1), (df::Cell{U'é', df::RED}));
 }
 
-TEST(Replica, ExtrapolatesBetweenSnapshots) {
-  Replica replica;
+TEST_F(ReplicaTest, ExtrapolatesBetweenSnapshots) {
   ObjectState state = character(10, 5, U'@');
   state.motion = {100, cellsAt(10, 5), cellsAt(0.5, 0), cellsAt(0, 0.25)};
   apply(replica, 1, 100, birth(7, 1, state));
@@ -67,8 +69,7 @@ TEST(Replica, ExtrapolatesBetweenSnapshots) {
   EXPECT_EQ(replica.render(104).at(12, 7).ch, U'@');  // 5 + 6 × 0.25 = 6.5
 }
 
-TEST(Replica, BirthOfANewGenerationReplacesTheOldOne) {
-  Replica replica;
+TEST_F(ReplicaTest, BirthOfANewGenerationReplacesTheOldOne) {
   apply(replica, 1, 0, birth(7, 3, character(1, 0, U'a', 2, 10)));
   apply(replica, 2, 0, birth(7, 0, character(4, 0, U'b', 2, 20)));
   ASSERT_NE(replica.find(7), nullptr);
@@ -77,30 +78,29 @@ TEST(Replica, BirthOfANewGenerationReplacesTheOldOne) {
   EXPECT_EQ(replica.aliveCount(), 1u);
 }
 
-TEST(Replica, ReportsTheNewestAppliedSnapshot) {
-  Replica replica(1000);
-  EXPECT_EQ(replica.newest().tick, 1000u);
+TEST_F(ReplicaTest, ReportsTheNewestAppliedSnapshot) {
+  Replica fresh(1000);
+  EXPECT_EQ(fresh.newest().tick, 1000u);
   const auto input = [&](std::uint32_t number, std::uint32_t tick, std::uint32_t id) {
     Snapshot snapshot;
     snapshot.header.number = number;
     snapshot.header.tick = tick;
     snapshot.header.has_input = id != 0;
     snapshot.header.input = id;
-    replica.apply(snapshot);
+    fresh.apply(snapshot);
   };
   input(5, 1002, 3);
   input(4, 1001, 2);  // arrives late
-  EXPECT_EQ(replica.newest().number, 5u);
-  EXPECT_EQ(replica.newest().tick, 1002u);
-  EXPECT_EQ(replica.newest().input, 3u);
+  EXPECT_EQ(fresh.newest().number, 5u);
+  EXPECT_EQ(fresh.newest().tick, 1002u);
+  EXPECT_EQ(fresh.newest().input, 3u);
   input(6, 1005, 0);
-  EXPECT_EQ(replica.newest().number, 6u);
-  EXPECT_EQ(replica.newest().tick, 1005u);
-  EXPECT_EQ(replica.newest().input, 3u);
+  EXPECT_EQ(fresh.newest().number, 6u);
+  EXPECT_EQ(fresh.newest().tick, 1005u);
+  EXPECT_EQ(fresh.newest().input, 3u);
 }
 
-TEST(Replica, KeepsNamesForLaterSnapshots) {
-  Replica replica;
+TEST_F(ReplicaTest, KeepsNamesForLaterSnapshots) {
   const ObjectState state = character(1, 1, U'x');
   ObjectState word = state;
   word.look.sequence = {{word.look.sequence[0][0], {256, 0, U'y', df::CYAN}}};
@@ -135,15 +135,13 @@ TEST(Replica, KeepsNamesForLaterSnapshots) {
   EXPECT_EQ(replica.read(names, out), ReadResult::kStale);
 }
 
-TEST(Replica, RecordsAboutUnknownObjectsDrawNothing) {
-  Replica replica;
+TEST_F(ReplicaTest, RecordsAboutUnknownObjectsDrawNothing) {
   apply(replica, 1, 0, motion(7, 5));
   EXPECT_EQ(replica.aliveCount(), 0u);
   EXPECT_EQ(countDifferences(replica.render(0), df::Canvas(80, 24)), 0);
 }
 
-TEST(Replica, EmptyTextRemovesTheText) {
-  Replica replica;
+TEST_F(ReplicaTest, EmptyTextRemovesTheText) {
   Records text;
   text.texts.push_back({3, 0, 0, df::RED, "score"});
   apply(replica, 1, 0, text);
@@ -152,8 +150,7 @@ TEST(Replica, EmptyTextRemovesTheText) {
   EXPECT_EQ(replica.render(0).text(), df::Canvas(80, 24).text());
 }
 
-TEST(Replica, FollowsTheObjectOfTheViewRecord) {
-  Replica replica;
+TEST_F(ReplicaTest, FollowsTheObjectOfTheViewRecord) {
   Records records = birth(7, 1, character(50, 12, U'@'));
   records.worlds.push_back({{cellsAt(0, 0), cellsAt(400, 24)}, 60, 20});
   records.views.push_back({cellsAt(20, 0), true, 7, 1});
@@ -168,14 +165,13 @@ TEST(Replica, FollowsTheObjectOfTheViewRecord) {
   EXPECT_EQ(replica.focus(40), (CellPosition{30, 10}));
 }
 
-TEST(Replica, ObjectCountIsBoundedAndOverflowCounted) {
-  Replica replica;
+TEST_F(ReplicaTest, ObjectCountIsBoundedAndOverflowCounted) {
   for (std::uint32_t id = 0; id < kMaxReplicaObjects + 10; ++id) apply(replica, id + 1, 0, birth(id, 1, {}));
   EXPECT_EQ(replica.entries().size(), kMaxReplicaObjects);
   EXPECT_EQ(replica.overflowCount(), 10u);
 }
 
-TEST(Replica, DrawnGlyphsAreLimitedToTheTopmost) {
+TEST_F(ReplicaTest, DrawnGlyphsAreLimitedToTheTopmost) {
   // All objects share this sequence, so it takes little memory but much drawing.
   const Sequence large{Appearance(8192, Glyph{0, 0, U'#', df::RED})};
   const std::uint32_t fits = kMaxDrawnGlyphs / 8192;
@@ -187,7 +183,6 @@ TEST(Replica, DrawnGlyphsAreLimitedToTheTopmost) {
     state.look.sequence = large;
     records.objects.push_back({id, 1, kAllGroups, state});
   }
-  Replica replica;
   apply(replica, 1, 0, records);
   const df::Canvas picture = replica.render(0);
   for (std::uint32_t id = 0; id < fits + 10; ++id) {
@@ -196,20 +191,18 @@ TEST(Replica, DrawnGlyphsAreLimitedToTheTopmost) {
   }
 }
 
-TEST(Replica, DrawnObjectsAreLimitedToTheTopmost) {
+TEST_F(ReplicaTest, DrawnObjectsAreLimitedToTheTopmost) {
   Records records;
   for (std::uint32_t id = 0; id < kMaxDrawnObjects + 2; ++id) {
     records.objects.push_back({id, 1, kAllGroups, character(id < 3 ? static_cast<int>(id) : 5, 0, U'x')});
     records.objects.back().state.order = id;
   }
-  Replica replica;
   apply(replica, 1, 0, records);
   EXPECT_EQ(replica.render(0).text().substr(0, 6), "  x  x");
 }
 
-TEST(Replica, ObjectsReachingIntoTheViewAreDrawn) {
+TEST_F(ReplicaTest, ObjectsReachingIntoTheViewAreDrawn) {
   // A glyph at each end of a long look, with the object outside the view on every side.
-  Replica replica;
   std::uint32_t id = 0;
   for (const auto& [x, y, dx, dy] : {std::array{-100, 3, 100, 0}, std::array{190, 4, -190, 0},
                                      std::array{5, -60, 0, 60}, std::array{6, 99, 0, -99}}) {
@@ -223,8 +216,7 @@ TEST(Replica, ObjectsReachingIntoTheViewAreDrawn) {
   for (const auto& [x, y] : {std::pair{0, 3}, {0, 4}, {5, 0}, {6, 0}}) EXPECT_EQ(picture.at(x, y).ch, U'@');
 }
 
-TEST(Replica, TotalLookSizeIsBounded) {
-  Replica replica;
+TEST_F(ReplicaTest, TotalLookSizeIsBounded) {
   ObjectState huge = character(1, 1, U'x');
   const auto makeCopy = [&huge] { huge.look.sequence = {Appearance(8192, Glyph{0, 0, U'#', df::RED})}; };
   const std::uint32_t fits = kMaxReplicaGlyphs / 8192;
@@ -250,8 +242,7 @@ TEST(Replica, TotalLookSizeIsBounded) {
   EXPECT_EQ(replica.find(fits + 1)->state.look, huge.look);
 }
 
-TEST(Replica, SharedLooksCountOnce) {
-  Replica replica;
+TEST_F(ReplicaTest, SharedLooksCountOnce) {
   ObjectState huge = character(1, 1, U'x');
   huge.look.sequence = {Appearance(8192, Glyph{0, 0, U'#', df::RED})};
   const std::uint32_t many = 2 * kMaxReplicaGlyphs / 8192;
@@ -269,7 +260,7 @@ TEST(Replica, SharedLooksCountOnce) {
 }
 
 // SnapshotLossTest compares replicas of whole worlds after losses, duplicates and late arrivals.
-TEST(Replica, LateRecordsOfEachKindChangeNothing) {
+TEST_F(ReplicaTest, LateRecordsOfEachKindChangeNothing) {
   const auto records = [](double x, const char* text, std::int32_t width) {
     Records all = birth(7, 1, character(x, 1, U'@'));
     all.worlds.push_back({{cellsAt(0, 0), cellsAt(400, 24)}, width, 20});
@@ -289,19 +280,18 @@ TEST(Replica, LateRecordsOfEachKindChangeNothing) {
   apply(late, after, 10, newer);
   for (int times = 0; times < 2; ++times) apply(late, before, 9, older);
   EXPECT_EQ(late.aliveCount(), 2u);
-  for (const Replica* replica : {&expected, &late}) {
-    EXPECT_EQ(replica->newest().number, after);
-    EXPECT_EQ(replica->checksum(), expected.checksum());
-    EXPECT_EQ(replica->viewWidth(), 70);
-    EXPECT_EQ(replica->viewCorner(12), (CellPosition{5, 0}));
-    EXPECT_EQ(replica->find(7)->state.motion.position, cellsAt(5, 1));
-    EXPECT_EQ(replica->render(12).text().substr(0, 4), "new\n");
-    EXPECT_EQ(countDifferences(replica->render(12), expected.render(12)), 0);
+  for (const Replica* p_replica : {&expected, &late}) {
+    EXPECT_EQ(p_replica->newest().number, after);
+    EXPECT_EQ(p_replica->checksum(), expected.checksum());
+    EXPECT_EQ(p_replica->viewWidth(), 70);
+    EXPECT_EQ(p_replica->viewCorner(12), (CellPosition{5, 0}));
+    EXPECT_EQ(p_replica->find(7)->state.motion.position, cellsAt(5, 1));
+    EXPECT_EQ(p_replica->render(12).text().substr(0, 4), "new\n");
+    EXPECT_EQ(countDifferences(p_replica->render(12), expected.render(12)), 0);
   }
 }
 
-TEST(Replica, ChecksumCoversOnlyLivingObjects) {
-  Replica replica;
+TEST_F(ReplicaTest, ChecksumCoversOnlyLivingObjects) {
   EXPECT_EQ(replica.checksum(), 0u);
   apply(replica, 1, 0, birth(7, 1, character(1, 0, U'a')));
   const std::uint64_t one = replica.checksum();
