@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -63,9 +62,18 @@ Path anywhere(SplitMix64& rng) {
   return path;
 }
 
-TEST(DatagramDemux, IdsAreUniqueAndReusableAfterRemoval) {
+struct DatagramDemuxTest : testing::Test {
+  void settleBoth() {
+    ann.settle();
+    ben.settle();
+  }
+
   DatagramDemux gate;
-  Guest ann(gate, 1);
+  Guest ann{gate, 1}, ben{gate, 2};
+  SplitMix64 rng{3};
+};
+
+TEST_F(DatagramDemuxTest, IdsAreUniqueAndReusableAfterRemoval) {
   SealedLink other({.role = SealedLink::Role::kServer, .id = {1}, .random = [] { return 0; }, .limits = {}});
   EXPECT_FALSE(gate.add(other, [](std::string_view) { FAIL(); }));
   ann.say("x");
@@ -76,9 +84,7 @@ TEST(DatagramDemux, IdsAreUniqueAndReusableAfterRemoval) {
   EXPECT_TRUE(gate.add(other, [](std::string_view) {}));
 }
 
-TEST(DatagramDemux, RefusalsAreCountedByReason) {
-  DatagramDemux gate;
-  Guest ann(gate, 1);
+TEST_F(DatagramDemuxTest, RefusalsAreCountedByReason) {
   const std::string packet = ann.fromClient("x");
   const auto receive = [&](const std::string& bytes) { gate.receive(ann.home, bytes, ann.now); };
   receive("");
@@ -102,8 +108,7 @@ TEST(DatagramDemux, RefusalsAreCountedByReason) {
   EXPECT_EQ(ann.server.counters().forged, 1u);
 }
 
-TEST(DatagramDemux, HandlerMayRemoveItsSession) {
-  DatagramDemux gate;
+TEST_F(DatagramDemuxTest, HandlerMayRemoveItsSession) {
   int calls = 0;
   SealedLink link(
       {.role = SealedLink::Role::kServer, .id = kSession, .random = [] { return 0; }, .limits = {}});
@@ -118,22 +123,15 @@ TEST(DatagramDemux, HandlerMayRemoveItsSession) {
   EXPECT_EQ(calls, 1);
 }
 
-TEST(DatagramDemux, ForgersWithoutAnIdReachNoCryptography) {
-  DatagramDemux gate;
-  Guest ann(gate, 1);
-  SplitMix64 rng(3);
+TEST_F(DatagramDemuxTest, ForgersWithoutAnIdReachNoCryptography) {
   for (int i = 0; i < 100'000; ++i) gate.receive(anywhere(rng), forgedFor({rng.next()}, rng), ann.now);
   EXPECT_EQ(gate.counters().unknown_id, 100'000u);
   ann.say("a stranger is heard at once");
   EXPECT_EQ(ann.heard.size(), 1u);
 }
 
-TEST(DatagramDemux, ForgedFloodLeavesAProvenSessionUnharmed) {
-  DatagramDemux gate;
-  Guest ann(gate, 1), ben(gate, 2);
-  ann.settle();
-  ben.settle();
-  SplitMix64 rng(3);
+TEST_F(DatagramDemuxTest, ForgedFloodLeavesAProvenSessionUnharmed) {
+  settleBoth();
   int said = 0;
   for (int tick = 0; tick < 300;
        ++tick) {  // 10 s, 300,000 forged packets from many addresses, with the id of ann's session
@@ -152,57 +150,48 @@ TEST(DatagramDemux, ForgedFloodLeavesAProvenSessionUnharmed) {
   EXPECT_GT(gate.counters().unvalidated_session_flood, 290'000u);
 }
 
-TEST(DatagramDemux, FloodOnOneSessionDoesNotStopOthersRoaming) {
-  DatagramDemux gate;
-  Guest ann(gate, 1), ben(gate, 2);
-  ann.settle();
-  ben.settle();
-  SplitMix64 rng(3);
+TEST_F(DatagramDemuxTest, FloodOnOneSessionDoesNotStopOthersRoaming) {
+  settleBoth();
   for (int i = 0; i < 100'000; ++i) gate.receive(anywhere(rng), forgedFor({1}, rng), ann.now);
   ben.say("roamed", pathFrom("203.0.113.77"));
   EXPECT_EQ(ben.heard, std::vector<std::string>{"roamed"});
 }
 
-TEST(DatagramDemux, FloodFromOnePrefixIsLimitedToIt) {
+TEST_F(DatagramDemuxTest, FloodFromOnePrefixIsLimitedToIt) {
   DatagramDemuxRates rates;
   rates.prefix = {.per_second = 1, .burst = 50};
-  DatagramDemux gate(rates);
-  const auto guests = twentyGuests(gate);
-  SplitMix64 rng(3);
+  DatagramDemux limited(rates);
+  const auto guests = twentyGuests(limited);
   const Path attacker = pathFrom("203.0.113.1");
   for (int i = 0; i < 10'000; ++i) {
     Path path = attacker;
     path.remote.port = static_cast<std::uint16_t>(rng.next());
-    gate.receive(path, forgedFor({1 + rng.below(10)}, rng), guests[0]->now);
+    limited.receive(path, forgedFor({1 + rng.below(10)}, rng), guests[0]->now);
   }
   EXPECT_EQ(forgedForAll(guests), 50u);
-  EXPECT_GT(gate.counters().prefix_flood, 0u);
+  EXPECT_GT(limited.counters().prefix_flood, 0u);
   for (std::size_t i = 10; i < 20; ++i) {
     guests[i]->say("first");
     EXPECT_EQ(guests[i]->heard.size(), 1u);
   }
 }
 
-TEST(DatagramDemux, UnprovenAddressesShareOneLimit) {
+TEST_F(DatagramDemuxTest, UnprovenAddressesShareOneLimit) {
   DatagramDemuxRates rates;
   rates.strangers = {.per_second = 10, .burst = 100};
-  DatagramDemux gate(rates);
-  const auto guests = twentyGuests(gate);
+  DatagramDemux limited(rates);
+  const auto guests = twentyGuests(limited);
   guests[0]->settle();
-  SplitMix64 rng(3);
   for (int i = 0; i < 10'000; ++i)
-    gate.receive(anywhere(rng), forgedFor({1 + rng.below(20)}, rng), guests[0]->now);
+    limited.receive(anywhere(rng), forgedFor({1 + rng.below(20)}, rng), guests[0]->now);
   EXPECT_EQ(forgedForAll(guests), 98u);  // settle() used two of the rate
-  EXPECT_GT(gate.counters().unvalidated_flood, 0u);
+  EXPECT_GT(limited.counters().unvalidated_flood, 0u);
   for (int i = 0; i < 100; ++i) guests[0]->say("unharmed");
   EXPECT_EQ(guests[0]->heard.size(), 100u);
 }
 
-TEST(DatagramDemux, EachSessionHasItsOwnRateLimit) {
-  DatagramDemux gate;
-  Guest ann(gate, 1), ben(gate, 2);
-  ann.settle();
-  ben.settle();
+TEST_F(DatagramDemuxTest, EachSessionHasItsOwnRateLimit) {
+  settleBoth();
   for (int i = 0; i < 2000; ++i) ann.say("much");
   EXPECT_EQ(ann.heard.size(), 500u);
   EXPECT_EQ(gate.counters().session_flood, 1500u);
@@ -213,9 +202,7 @@ TEST(DatagramDemux, EachSessionHasItsOwnRateLimit) {
   EXPECT_EQ(ann.heard.size(), 750u);
 }
 
-TEST(DatagramDemux, ReplaysConsumeNoRateLimit) {
-  DatagramDemux gate;
-  Guest ann(gate, 1);
+TEST_F(DatagramDemuxTest, ReplaysConsumeNoRateLimit) {
   ann.settle();
   const std::string packet = ann.fromClient("once");
   for (int i = 0; i < 10'000; ++i) gate.receive(ann.home, packet, ann.now);

@@ -1,6 +1,8 @@
 // Both ends of a session's sealed datagrams. The test carries packets between them.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <chrono>
 #include <optional>
 #include <string>
@@ -74,5 +76,8 @@ struct LinkPair {
   SealedLink client;
   SealedLink server;
 };
+
+/// A test with a pair of its own.
+struct LinkFixture : testing::Test, LinkPair {};
 
 }  // namespace naiad::test

@@ -7,53 +7,51 @@ namespace naiad::test {
 namespace {
 
 using namespace std::chrono_literals;
+using LinkPingTest = LinkFixture;
 using Millis = LinkPing::Millis;
 
-TEST(LinkPing, MeasuresRoundTripWithoutServerDelay) {
-  LinkPair pair;
-  pair.settle(pair.home);
-  EXPECT_FALSE(pair.client.popRoundTrip());
-  const std::size_t before = pair.fromClient("key").size();
-  pair.client.ping();
-  const std::string ping = pair.fromClient("key");
+TEST_F(LinkPingTest, MeasuresRoundTripWithoutServerDelay) {
+  settle(home);
+  EXPECT_FALSE(client.popRoundTrip());
+  const std::size_t before = fromClient("key").size();
+  client.ping();
+  const std::string ping = fromClient("key");
   EXPECT_EQ(ping.size(), before + 1);
-  EXPECT_EQ(pair.fromClient("key").size(), before) << "once";
-  pair.now += 40ms;
-  EXPECT_EQ(pair.toServer(ping), "key");
-  pair.now += 33ms;  // time for which the server waits for its tick
-  const std::string echo = pair.fromServer("world");
-  EXPECT_EQ(pair.fromServer("world").size(), echo.size() - 2) << "once";
-  pair.now += 60ms;
-  EXPECT_EQ(pair.toClient(echo), "world");
-  EXPECT_EQ(pair.client.popRoundTrip(), Millis(100));
-  EXPECT_FALSE(pair.client.popRoundTrip());
+  EXPECT_EQ(fromClient("key").size(), before) << "once";
+  now += 40ms;
+  EXPECT_EQ(toServer(ping), "key");
+  now += 33ms;  // time for which the server waits for its tick
+  const std::string echo = fromServer("world");
+  EXPECT_EQ(fromServer("world").size(), echo.size() - 2) << "once";
+  now += 60ms;
+  EXPECT_EQ(toClient(echo), "world");
+  EXPECT_EQ(client.popRoundTrip(), Millis(100));
+  EXPECT_FALSE(client.popRoundTrip());
 }
 
-TEST(LinkPing, LateOrLongHeldPingsAreIgnored) {
-  LinkPair pair;
-  pair.settle(pair.home);
-  pair.client.ping();
-  const std::string first = pair.fromClient("");
-  pair.toServer(first);
-  const std::string late = pair.fromServer("");
-  pair.client.ping();
-  const std::string second = pair.fromClient("");
-  pair.toClient(late);
-  EXPECT_FALSE(pair.client.popRoundTrip()) << "of the ping before";
-  pair.toServer(second);
-  pair.now += 256ms;
-  pair.toClient(pair.fromServer("held too long"));
-  EXPECT_FALSE(pair.client.popRoundTrip());
-  pair.client.ping();
-  pair.toServer(pair.fromClient(""));
-  pair.now += 255ms;
-  pair.toClient(pair.fromServer(""));
-  EXPECT_EQ(pair.client.popRoundTrip(), Millis(0));
+TEST_F(LinkPingTest, LateOrLongHeldPingsAreIgnored) {
+  settle(home);
+  client.ping();
+  const std::string first = fromClient("");
+  toServer(first);
+  const std::string late = fromServer("");
+  client.ping();
+  const std::string second = fromClient("");
+  toClient(late);
+  EXPECT_FALSE(client.popRoundTrip()) << "of the ping before";
+  toServer(second);
+  now += 256ms;
+  toClient(fromServer("held too long"));
+  EXPECT_FALSE(client.popRoundTrip());
+  client.ping();
+  toServer(fromClient(""));
+  now += 255ms;
+  toClient(fromServer(""));
+  EXPECT_EQ(client.popRoundTrip(), Millis(0));
 }
 
-TEST(LinkPing, HoldTimeAboveTheRoundTripGivesZero) {
+TEST_F(LinkPingTest, HoldTimeAboveTheRoundTripGivesZero) {
   LinkPing ping;
-  const LinkPing::Time now{1h};
   ping.request();
   const std::uint8_t token = ping.onSent(now);
   ping.onEcho({static_cast<std::uint8_t>(token + 1), 0}, now + 9ms);
@@ -64,27 +62,25 @@ TEST(LinkPing, HoldTimeAboveTheRoundTripGivesZero) {
   EXPECT_FALSE(ping.popRoundTrip()) << "a second answer";
 }
 
-TEST(LinkPing, WaitsForAPacketWithFreeSpace) {
-  LinkPair pair;
-  pair.toServer(pair.fromClient("here"));
-  pair.toClient(pair.fromServer("who?"));  // an answer of 8 bytes is now pending
-  pair.client.ping();
-  const std::string full(pair.client.maxPayload(), 'x');
-  EXPECT_EQ(pair.toServer(pair.fromClient(full)), full);
-  const std::string ping = pair.fromClient(std::string(pair.client.maxPayload(), 'y'));
+TEST_F(LinkPingTest, WaitsForAPacketWithFreeSpace) {
+  toServer(fromClient("here"));
+  toClient(fromServer("who?"));  // an answer of 8 bytes is now pending
+  client.ping();
+  const std::string full(client.maxPayload(), 'x');
+  EXPECT_EQ(toServer(fromClient(full)), full);
+  const std::string ping = fromClient(std::string(client.maxPayload(), 'y'));
   EXPECT_LE(ping.size(), kMaxDatagram);
-  pair.toServer(ping);
-  pair.toClient(pair.fromServer(""));
-  EXPECT_TRUE(pair.client.popRoundTrip());
+  toServer(ping);
+  toClient(fromServer(""));
+  EXPECT_TRUE(client.popRoundTrip());
 }
 
-TEST(LinkPing, PingDoesNotRaiseAnUnprovenAddressesLimit) {
-  LinkPair pair;
-  pair.client.ping();
-  const std::string ping = pair.fromClient("");
-  pair.toServer(ping);
+TEST_F(LinkPingTest, PingDoesNotRaiseAnUnprovenAddressesLimit) {
+  client.ping();
+  const std::string ping = fromClient("");
+  toServer(ping);
   std::size_t sent = 0;
-  while (const auto packet = pair.seal(pair.server, "")) sent += packet->bytes.size();
+  while (const auto packet = seal(server, "")) sent += packet->bytes.size();
   EXPECT_LE(sent, 3 * ping.size());
 }
 

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <set>
 #include <unordered_set>
 
 #include "shared/net/datagram/Path.h"

@@ -1,9 +1,7 @@
 // Helpers for tests of sealed datagrams: a TLS 1.3 exporter without TLS.
 #pragma once
 
-#include <cstddef>
 #include <string>
-#include <string_view>
 
 #include "shared/net/datagram/DatagramKeys.h"
 
