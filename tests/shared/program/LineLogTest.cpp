@@ -1,4 +1,5 @@
-// A log never blocks its caller, loses lines only if it must, and reports how many.
+// A log never blocks its caller, loses lines only if it must, and reports how many. Its events are sentences
+// or JSON objects.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -243,6 +245,58 @@ TEST(LogText, QuotesEscapeTheirContent) {
   EXPECT_EQ(inQuotes("a\\"), R"("a\\")");
   EXPECT_EQ(inQuotes("a\nb\x7f"), R"("a\nb\x7f")");
   EXPECT_EQ(inQuotes("\xc3\xa9\xe2\x82\xac"), "\"\xc3\xa9\xe2\x82\xac\"") << "other characters stay";
+}
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kMost = 2048;
+const std::chrono::system_clock::time_point kTime{std::chrono::milliseconds(1'769'860'799'007)};
+
+std::string jsonLine(const LogEvent& event, std::size_t most = kMost) {
+  return formatEvent(event, LogFormat::kJson, kTime, most);
+}
+
+Json parse(const LogEvent& event, std::size_t most = kMost) {
+  return Json::parse(jsonLine(event, most));
+}
+
+TEST(LogFormatTest, EventIsFormattedAsText) {
+  const LogEvent event{"joined", "192.0.2.1:4000 \"Ann\" joined", {{"player", "Ann"}}};
+  EXPECT_EQ(formatEvent(event, LogFormat::kBare, kTime, kMost), "192.0.2.1:4000 \"Ann\" joined\n");
+  const std::string line = formatEvent(event, LogFormat::kText, kTime, kMost);
+  EXPECT_EQ(line.substr(std::string("2026-01-31 11:59:59").size()), " 192.0.2.1:4000 \"Ann\" joined\n");
+}
+
+TEST(LogFormatTest, EventIsFormattedAsJsonWithItsFields) {
+  EXPECT_EQ(jsonLine({"joined", "192.0.2.1:4000 \"Ann\" joined", {{"address", "192.0.2.1:4000"}}}),
+            R"({"time":"2026-01-31T11:59:59.007Z","level":"info","event":"joined",)"
+            R"("text":"192.0.2.1:4000 \"Ann\" joined","address":"192.0.2.1:4000"})"
+            "\n");
+  EXPECT_EQ(parse("a text").at("event"), "note");
+  EXPECT_EQ(parse({LogEvent::Level::kWarning, "warning: x"}).at("level"), "warning");
+}
+
+TEST(LogFormatTest, AnyBytesGiveOneLineOfValidJson) {
+  std::string all;
+  for (int byte = 0; byte < 256; ++byte) all += static_cast<char>(byte);
+  const std::string line = jsonLine({"chat", all, {{"line", all}, {"player", "\"},{\"event\":\"joined"}}});
+  EXPECT_EQ(line.find('\n'), line.size() - 1);
+  const Json object = Json::parse(line);
+  EXPECT_EQ(object.at("event"), "chat");
+  EXPECT_EQ(object.at("player"), "\"},{\"event\":\"joined");
+  for (const char c : object.at("text").get<std::string>()) EXPECT_GE(static_cast<unsigned char>(c), 0x20);
+}
+
+TEST(LogFormatTest, LongLineIsTruncatedButStaysValidJson) {
+  for (const std::string& piece : {std::string("x"), std::string("\""), std::string("\xe2\x82\xac")}) {
+    std::string text;
+    while (text.size() < 10'000) text += piece;
+    const LogEvent event{"chat", text, {{"line", text}}};
+    EXPECT_LE(jsonLine(event).size(), kMost);
+    EXPECT_EQ(parse(event).at("event"), "chat");
+    EXPECT_FALSE(parse(event).at("text").get<std::string>().empty());
+    EXPECT_EQ(formatEvent(event, LogFormat::kText, kTime, kMost).size(), kMost);
+  }
 }
 
 }  // namespace

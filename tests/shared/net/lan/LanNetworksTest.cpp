@@ -29,26 +29,21 @@ TEST(LanNetworks, NetworkContainsAddressesWithItsPrefix) {
   EXPECT_FALSE(contains(lanNetworkOf(1, "0.0.0.0", 0), "fd00::1")) << "another family";
 }
 
+bool isPrivate(std::vector<LanNetwork> networks) {
+  markPrivate(networks);
+  return networks[0].is_private;
+}
+
 TEST(LanNetworks, HomeAndOfficeRangesArePrivate) {
   for (const char* p_address :
-       {"10.255.0.1", "172.16.0.1", "172.31.255.1", "192.168.9.1", "169.254.3.4", "fd00::1", "fc12::1"}) {
-    std::vector<LanNetwork> networks{lanNetworkOf(1, p_address, 24)};
-    markPrivate(networks);
-    EXPECT_TRUE(networks[0].is_private) << p_address;
-  }
+       {"10.255.0.1", "172.16.0.1", "172.31.255.1", "192.168.9.1", "169.254.3.4", "fd00::1", "fc12::1"})
+    EXPECT_TRUE(isPrivate({lanNetworkOf(1, p_address, 24)})) << p_address;
   for (const char* p_address : {"11.0.0.1", "172.15.0.1", "172.32.0.1", "192.169.0.1", "192.0.2.1",
-                                "100.64.0.1", "127.0.0.1", "2001:db8::1", "fe00::1"}) {
-    std::vector<LanNetwork> networks{lanNetworkOf(1, p_address, 24)};
-    markPrivate(networks);
-    EXPECT_FALSE(networks[0].is_private) << p_address;
-  }
+                                "100.64.0.1", "127.0.0.1", "2001:db8::1", "fe00::1"})
+    EXPECT_FALSE(isPrivate({lanNetworkOf(1, p_address, 24)})) << p_address;
 }
 
 TEST(LanNetworks, LinkLocalNetworkIsAsPrivateAsItsInterface) {
-  const auto isPrivate = [](std::vector<LanNetwork> networks) {
-    markPrivate(networks);
-    return networks[0].is_private;
-  };
   const LanNetwork link = lanNetworkOf(1, "fe80::1", 64);
   EXPECT_TRUE(isPrivate({link}));
   EXPECT_TRUE(isPrivate({link, lanNetworkOf(1, "192.168.1.1", 24), lanNetworkOf(1, "2001:db8::1", 64)}));
