@@ -1,6 +1,5 @@
 #include "tests/server/replay/Recorder.h"
 
-#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>

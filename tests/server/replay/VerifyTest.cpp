@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "host/rounds/RoundJournals.h"
 #include "host/settings/GameModule.h"
@@ -31,12 +32,13 @@ std::string unsteady(const fs::path& folder, const std::string& way) {
   return module.string();
 }
 
-std::string verify(const fs::path& file, const std::string& game, bool& same) {
+/// Returns whether the round replays identically, and what is said about it.
+std::pair<bool, std::string> verify(const fs::path& file, const std::string& game) {
   std::ostringstream out;
   const RecordedRound round(file);
   const ReplayEnvironment stage(round, game);
-  same = verifyRound(round, stage, out);
-  return out.str();
+  const bool same = verifyRound(round, stage, out);
+  return {same, out.str()};
 }
 
 class ShippedGameTest : public testing::TestWithParam<std::string> {};
@@ -46,8 +48,7 @@ TEST_P(ShippedGameTest, ThreeRoundsReplayIdentically) {
   Recorder recorder;
   for (const std::uint64_t seed : {1, 2, 3}) {
     const fs::path file = recorder.record({.game = GetParam(), .seed = seed, .ticks = 700});
-    bool same = false;
-    const std::string text = verify(file, "", same);
+    const auto [same, text] = verify(file, "");
     EXPECT_TRUE(same) << "seed " << seed << ": " << text;
     EXPECT_TRUE(test::has(text, "verified ticks="));
     EXPECT_FALSE(test::has(text, "is not the recorded one"));
@@ -92,8 +93,7 @@ TEST_P(CuredGameTest, ReplaysIdentically) {
   Recorder recorder;
   const std::string module = unsteady(recorder.folder(), GetParam());
   const fs::path file = recorder.record({.game = module, .ticks = 100, .players = 1});
-  bool same = false;
-  const std::string text = verify(file, module, same);
+  const auto [same, text] = verify(file, module);
   EXPECT_TRUE(same) << text;
 }
 
@@ -150,8 +150,7 @@ TEST_F(RoundTest, FactsNameTheGameAndNoLocalPath) {
 
 TEST_F(RoundTest, TruncatedFileStillVerifies) {
   fs::resize_file(file, fs::file_size(file) - 100);
-  bool same = false;
-  const std::string text = verify(file, "", same);
+  const auto [same, text] = verify(file, "");
   EXPECT_TRUE(same) << text;
   EXPECT_TRUE(test::has(text, "a truncated file"));
 }
