@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
-#include <optional>
 #include <string>
 
 #include "client/world/EpochReplicas.h"
