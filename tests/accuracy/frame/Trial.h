@@ -1,8 +1,9 @@
 // One method at one number of sub-steps. A problem's judge uses it to run scenes.
 #pragma once
 
+#include <algorithm>
 #include <stdexcept>
-#include <string>
+#include <vector>
 
 #include "Method.h"
 
@@ -51,6 +52,19 @@ class Trial {
   }
   SimulationPtr run(const Scene& scene) const {
     return run(scene, [](int, const Simulation&) {});
+  }
+
+  /// Runs the whole scene. Returns the largest of each of the values that `read(tick, simulation)` returned,
+  /// at least 0.
+  template <class Read>
+  std::vector<double> largest(const Scene& scene, Read read) const {
+    std::vector<double> most;
+    run(scene, [&](int tick, const Simulation& simulation) {
+      const std::vector<double> values = read(tick, simulation);
+      most.resize(values.size());
+      for (std::size_t i = 0; i < values.size(); ++i) most[i] = std::max(most[i], values[i]);
+    });
+    return most;
   }
 
   const Method& method() const { return m_method; }

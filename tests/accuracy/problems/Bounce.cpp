@@ -63,10 +63,8 @@ Case forever() {
   constexpr double kHeight = 5;
   Case bouncing("e1", "restitution 1", ballOverGround(kHeight, 1, 3000));
   bouncing.metrics = {{"peak", "relative error of the height after 100 s", 1e-9, 1e-14}};
-  bouncing.judge = [scene = bouncing.scene](const Trial& trial) {
-    const SimulationPtr end = trial.run(scene);
-    return std::vector<double>{std::abs(apexOf(end->body(0)) / kHeight - 1)};
-  };
+  bouncing.judge = atEnd(bouncing.scene,
+                         [](const Simulation& end) { return std::abs(apexOf(end.body(0)) / kHeight - 1); });
   return bouncing;
 }
 
@@ -93,12 +91,9 @@ std::vector<Case> makeFast() {
   bounce.scene.bodies = {flying, target};
   bounce.scene.ticks = kTicks;
   bounce.metrics = {{"end_error_m", "distance from the mirrored path, m", 1e-9, 1e-14}};
-  bounce.judge = [scene = bounce.scene, gap](const Trial& trial) {
-    const SimulationPtr end = trial.run(scene);
-    const double right = 2 * gap - kSpeed * scene.duration();
-    const Vec place = end->body(0).position;
-    return std::vector<double>{length(place - Vec{right, 0})};
-  };
+  const Vec right{2 * gap - kSpeed * bounce.scene.duration(), 0};
+  bounce.judge =
+      atEnd(bounce.scene, [right](const Simulation& end) { return length(end.body(0).position - right); });
   return {bounce};
 }
 

@@ -26,15 +26,14 @@ Case freeCradle() {
   }
   cradle.scene.ticks = 30;
   cradle.metrics = {{"velocity", "largest error of a velocity, of the first ball's", 1e-9, 1e-16}};
-  cradle.judge = [scene = cradle.scene](const Trial& trial) {
-    const SimulationPtr end = trial.run(scene);
+  cradle.judge = atEnd(cradle.scene, [](const Simulation& end) {
     double worst = 0;
     for (int i = 0; i < kBalls; ++i) {
       const Vec right{i == kBalls - 1 ? kSpeed : 0, 0};
-      worst = std::max(worst, length(end->body(i).velocity - right) / kSpeed);
+      worst = std::max(worst, length(end.body(i).velocity - right) / kSpeed);
     }
-    return std::vector<double>{worst};
-  };
+    return worst;
+  });
   return cradle;
 }
 
@@ -55,18 +54,17 @@ Case hungCradle() {
   cradle.scene.gravity = {0, -kGravity};
   cradle.scene.ticks = 45;  // the first ball hits the second after 1.13 s
   cradle.metrics = {{"velocity", "largest error of a speed, of the first ball's at the impact", 1e-3, 1e-15}};
-  cradle.judge = [scene = cradle.scene](const Trial& trial) {
-    const SimulationPtr end = trial.run(scene);
+  cradle.judge = atEnd(cradle.scene, [](const Simulation& end) {
     const double energy = kGravity * kRod * (1 - std::cos(kAngle));
     double worst = 0;
     for (int i = 0; i < kBalls; ++i) {
-      const BodyState state = end->body(i);
+      const BodyState state = end.body(i);
       const double its_energy = dot(state.velocity, state.velocity) / 2 + kGravity * state.position.y;
       const double speed = std::sqrt(std::max(0.0, its_energy / energy));
       worst = std::max(worst, std::abs(speed - (i == kBalls - 1 ? 1 : 0)));
     }
-    return std::vector<double>{worst};
-  };
+    return worst;
+  });
   return cradle;
 }
 
@@ -140,11 +138,10 @@ std::vector<Case> makeGalperin() {
     }
     shove.scene.ticks = kTicks;
     shove.metrics = {{"count", "error of the number of collisions, of " + std::to_string(right), 0, 0}};
-    shove.judge = [scene = shove.scene, right](const Trial& trial) {
-      const SimulationPtr end = trial.run(scene);
-      if (end->contacts() < 0) throw Inexpressible();
-      return std::vector<double>{std::abs(static_cast<double>(end->contacts()) / right - 1)};
-    };
+    shove.judge = atEnd(shove.scene, [right](const Simulation& end) {
+      if (end.contacts() < 0) throw Inexpressible();
+      return std::abs(static_cast<double>(end.contacts()) / right - 1);
+    });
     cases.push_back(shove);
   }
   return cases;

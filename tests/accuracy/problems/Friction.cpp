@@ -25,6 +25,13 @@ Scene onSlope(double angle, Body body, double lift, int ticks) {
   return scene;
 }
 
+// Returns a judge of the way of the first body, relative to the right one.
+Judge wayOf(const Scene& scene, double right) {
+  return atEnd(scene, [start = scene.bodies[0].position, right](const Simulation& end) {
+    return std::abs(length(end.body(0).position - start) / right - 1);
+  });
+}
+
 constexpr Vec kHalf{0.5, 0.25};
 
 Scene crateOnSlope(double angle, int ticks) {
@@ -54,13 +61,8 @@ Case sliding() {
   constexpr double kAngle = 40 * M_PI / 180;
   Case slope("", "", crateOnSlope(kAngle, 60));
   slope.metrics = {{"sliding", "relative error of the way down a slope of 40° in 2 s", 1e-3, 1e-15}};
-  slope.judge = [scene = slope.scene](const Trial& trial) {
-    const SimulationPtr end = trial.run(scene);
-    const double t = scene.duration();
-    const double right = kGravity * (std::sin(kAngle) - kFriction * std::cos(kAngle)) * t * t / 2;
-    return std::vector<double>{
-        std::abs(length(end->body(0).position - scene.bodies[0].position) / right - 1)};
-  };
+  const double t = slope.scene.duration();
+  slope.judge = wayOf(slope.scene, kGravity * (std::sin(kAngle) - kFriction * std::cos(kAngle)) * t * t / 2);
   return slope;
 }
 
@@ -71,11 +73,10 @@ Case stopping() {
   crate.velocity = {kSpeed, 0};
   floor.scene = onSlope(0, crate, kHalf.y, 90);
   floor.metrics = {{"stop", "relative error of the way to rest from 10 m/s", 1e-3, 1e-15}};
-  floor.judge = [scene = floor.scene](const Trial& trial) {
-    const SimulationPtr end = trial.run(scene);
+  floor.judge = atEnd(floor.scene, [](const Simulation& end) {
     const double right = kSpeed * kSpeed / (2 * kFriction * kGravity);
-    return std::vector<double>{std::abs(end->body(0).position.x / right - 1)};
-  };
+    return std::abs(end.body(0).position.x / right - 1);
+  });
   return floor;
 }
 
@@ -91,13 +92,8 @@ std::vector<Case> makeRolling() {
   constexpr double kRadius = 0.5;
   Case slope("", "", onSlope(kAngle, ball({}, {}, kRadius), kRadius, 60));
   slope.metrics = {{"way", "relative error of the way in 2 s", 1e-3, 1e-15}};
-  slope.judge = [scene = slope.scene](const Trial& trial) {
-    const SimulationPtr end = trial.run(scene);
-    const double t = scene.duration();
-    const double right = kGravity * std::sin(kAngle) * t * t / 3;
-    return std::vector<double>{
-        std::abs(length(end->body(0).position - scene.bodies[0].position) / right - 1)};
-  };
+  const double t = slope.scene.duration();
+  slope.judge = wayOf(slope.scene, kGravity * std::sin(kAngle) * t * t / 3);
   return {slope};
 }
 

@@ -1,5 +1,4 @@
 // Problem 16: scenes far from the origin. Problem 17: a closed system, whose momentum must not change.
-#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -30,15 +29,16 @@ Case away(double distance) {
       for (const int i : {0, 1}) right[i].push_back(positionOf(simulation, i));
     });
     const Scene scene = farScene(distance);
-    double worst[2] = {0, 0};
-    trial.run(scene, [&](int tick, const Simulation& simulation) {
+    const double scales[2] = {std::hypot(1, 0.3) * scene.duration(), 5};
+    return trial.largest(scene, [&](int tick, const Simulation& simulation) {
+      std::vector<double> errors;
       for (const int i : {0, 1}) {
         const std::vector<double> now = positionOf(simulation, i);
         const std::vector<double>& then = right[i][static_cast<std::size_t>(tick)];
-        worst[i] = std::max(worst[i], std::hypot(now[0] - then[0], now[1] - then[1]));
+        errors.push_back(std::hypot(now[0] - then[0], now[1] - then[1]) / scales[i]);
       }
+      return errors;
     });
-    return std::vector<double>{worst[0] / (std::hypot(1, 0.3) * scene.duration()), worst[1] / 5};
   };
   return moved;
 }
@@ -50,21 +50,6 @@ std::vector<Case> makeFar() {
 }
 
 constexpr double kRadius = 0.5;
-
-struct Total {
-  Vec momentum;
-  double size = 0;  ///< sum of the magnitudes of the bodies' momenta
-};
-
-Total totalOf(const Simulation& simulation, int count) {
-  Total total;
-  for (int i = 0; i < count; ++i) {
-    const Vec velocity = simulation.body(i).velocity;
-    total.momentum = total.momentum + velocity;
-    total.size += length(velocity);
-  }
-  return total;
-}
 
 // 100 discs of 1 kg that spin and rush together, with restitution 0.5 and friction 0.5, without gravity: 1000
 // ticks. Correct: momentum stays.
@@ -85,14 +70,11 @@ std::vector<Case> makeClosed() {
   swarm.scene.ticks = 1000;
   swarm.metrics = {{"momentum", "largest change of momentum, of Σ|p| at the start", 1e-12, 1e-17}};
   swarm.judge = [scene = swarm.scene](const Trial& trial) {
-    const int count = static_cast<int>(scene.bodies.size());
-    const Total start = totalOf(*trial.build(scene), count);
-    double worst = 0;
-    trial.run(scene, [&](int, const Simulation& simulation) {
-      const Vec now = totalOf(simulation, count).momentum;
-      worst = std::max(worst, length(now - start.momentum) / start.size);
+    const Whole start = motionOf(scene, *trial.build(scene));
+    return trial.largest(scene, [&](int, const Simulation& simulation) {
+      const Vec now = motionOf(scene, simulation).momentum;
+      return std::vector<double>{length(now - start.momentum) / start.sum};
     });
-    return std::vector<double>{worst};
   };
   return {swarm};
 }

@@ -1,5 +1,4 @@
 // Problem 23: a group of bodies must move exactly alike alone and with another group far away.
-#include <cmath>
 #include <string>
 #include <vector>
 

@@ -1,5 +1,4 @@
 // Problem 22: bodies in a magnetic field, free and constrained.
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -31,14 +30,12 @@ Case along(const std::string& name, Scene scene, double rate, Formula path, doub
   moved.metrics = {{"sup_error_m", "largest distance from the path, m", far, 1e-13},
                    {"energy_drift", "largest change of energy, relative", drift, 1e-15}};
   moved.judge = [scene = moved.scene, rate, path](const Trial& trial) {
-    double away = 0, changed = 0;
-    trial.run(scene, [&](int tick, const Simulation& simulation) {
+    return trial.largest(scene, [&](int tick, const Simulation& simulation) {
       const BodyState state = simulation.body(0);
       const Vec off = state.position - path(tick * scene.tick, rate / scene.tick);
-      away = std::max(away, std::sqrt(dot(off, off)));
-      changed = std::max(changed, std::abs(dot(state.velocity, state.velocity) / (kSpeed * kSpeed) - 1));
+      const double energy = dot(state.velocity, state.velocity) / (kSpeed * kSpeed);
+      return std::vector<double>{length(off), std::abs(energy - 1)};
     });
-    return std::vector<double>{away, changed};
   };
   return moved;
 }

@@ -48,9 +48,39 @@ std::vector<double> inOrder(const PathErrors& errors) {
   return {errors.end, errors.sup};
 }
 
-std::function<std::vector<double>(const Trial&)> alongPath(const Scene& scene, const Path& path, double scale,
-                                                           const Read& read) {
+Judge alongPath(const Scene& scene, const Path& path, double scale, const Read& read) {
   return [=](const Trial& trial) { return inOrder(compare(trial, scene, path, scale, read)); };
+}
+
+Judge atEnd(const Scene& scene, const std::function<double(const Simulation& end)>& error) {
+  return [=](const Trial& trial) { return std::vector<double>{error(*trial.run(scene))}; };
+}
+
+Whole motionOf(const Scene& scene, const Simulation& simulation) {
+  Whole all;
+  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
+    const double mass = scene.bodies[static_cast<std::size_t>(i)].mass;
+    const Vec velocity = simulation.body(i).velocity;
+    all.momentum = all.momentum + mass * velocity;
+    all.energy += 0.5 * mass * dot(velocity, velocity);
+    all.sum += mass * length(velocity);
+  }
+  return all;
+}
+
+std::vector<Case> mapOf(double most, Case (*make)(double value), const Metric& metric, double unit) {
+  std::vector<Case> cases;
+  for (double value = 1; value < 2 * most; value *= 10) {
+    Case cell = make(value);
+    cell.x = value;
+    cell.cpu_bounds.clear();
+    cell.metrics = {metric};
+    cell.judge = [judge = cell.judge, unit](const Trial& trial) {
+      return std::vector<double>{judge(trial)[0] / unit};
+    };
+    cases.push_back(cell);
+  }
+  return cases;
 }
 
 std::string power(double value) {

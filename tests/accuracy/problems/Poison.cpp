@@ -1,5 +1,4 @@
 // Problem 18: invalid values, such as NaN, and an extremely long tick. Neither may harm a pile.
-#include <cmath>
 #include <cstring>
 #include <limits>
 

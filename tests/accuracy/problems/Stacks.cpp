@@ -80,17 +80,15 @@ Case press(double ratio) {
   pressed.label = "1 : " + power(ratio);
   pressed.scene = stackOf({1, ratio}, true);
   pressed.judge = [scene = pressed.scene](const Trial& trial) {
-    double worst = 0;
-    trial.run(scene, [&](int tick, const Simulation& simulation) {
-      if (tick <= scene.ticks - 30) return;
+    return trial.largest(scene, [&](int tick, const Simulation& simulation) {
+      if (tick <= scene.ticks - 30) return std::vector<double>{0};
       const Vec light = simulation.body(1).position;
       const Vec heavy = simulation.body(2).position;
       const double below = kHalf - light.y;
       const double between = 2 * kHalf - (heavy.y - light.y);
-      worst = std::max({worst, below, between});
       if (std::abs(heavy.x) > kGone || std::abs(light.x) > kGone) throw Failure("fell off");
+      return std::vector<double>{std::max(below, between)};
     });
-    return std::vector<double>{worst};
   };
   return pressed;
 }
@@ -111,16 +109,7 @@ std::vector<Case> makePress() {
 // The two crates of problem 10. A cell is the deepest overlap in the last second, in halves of a crate: from
 // 1 on the light one is crushed. Correct: nothing moves.
 std::vector<Case> makeMap() {
-  std::vector<Case> cases;
-  for (double ratio = 1; ratio < 2e6; ratio *= 10) {
-    Case pressed = press(ratio);
-    pressed.metrics = {{"penetration", "mass ratio", -1, 0}};
-    pressed.judge = [judge = pressed.judge](const Trial& trial) {
-      return std::vector<double>{judge(trial)[0] / kHalf};
-    };
-    cases.push_back(pressed);
-  }
-  return cases;
+  return mapOf(1e6, press, {"penetration", "mass ratio", -1, 0}, kHalf);
 }
 
 Case offset(int boxes) {
@@ -136,12 +125,11 @@ Case offset(int boxes) {
   standing.draws_levels = true;
   standing.metrics = {{"sag_m", "largest error of a height over 10 s, m", 0.05, 1e-15}};
   standing.judge = [scene = standing.scene](const Trial& trial) {
-    double sag = 0;
-    trial.run(scene, [&](int /*tick*/, const Simulation& simulation) {
-      sag = std::max(sag, sagOf(scene, simulation));
+    return trial.largest(scene, [&](int /*tick*/, const Simulation& simulation) {
+      const double sag = sagOf(scene, simulation);
       if (sag > 0.5) throw Failure("collapsed");
+      return std::vector<double>{sag};
     });
-    return std::vector<double>{sag};
   };
   return standing;
 }

@@ -45,13 +45,10 @@ Case pulled(Pull pull, double per_tick, const std::string& name) {
              kGravity * off.y;
     };
     const double start = 0.5 * stiffness * kStart * kStart;
-    double gain = 0, sunk = 0;
-    trial.run(scene, [&](int /*tick*/, const Simulation& simulation) {
+    return trial.largest(scene, [&](int /*tick*/, const Simulation& simulation) {
       const BodyState s = simulation.body(0);
-      gain = std::max(gain, energyOf(s) / start - 1);
-      sunk = std::max(sunk, -s.position.y);
+      return std::vector<double>{energyOf(s) / start - 1, -s.position.y};
     });
-    return std::vector<double>{gain, sunk};
   };
   return swinging;
 }
@@ -65,11 +62,10 @@ Case resolved(Pull pull, const std::string& name) {
   swinging.judge = [judge = swinging.judge, scene = swinging.scene](const Trial& trial) {
     constexpr int kPeriod = 63;  // ticks
     std::vector<double> errors = judge(trial);
-    double widest = 0;
-    trial.run(scene, [&](int tick, const Simulation& simulation) {
-      if (tick > kTicks - kPeriod) widest = std::max(widest, std::abs(simulation.body(0).position.x));
+    const auto widest = trial.largest(scene, [&](int tick, const Simulation& simulation) {
+      return std::vector<double>{tick > kTicks - kPeriod ? std::abs(simulation.body(0).position.x) : 0};
     });
-    errors.push_back(std::max(1 - widest / kStart, 0.0));
+    errors.push_back(std::max(1 - widest[0] / kStart, 0.0));
     return errors;
   };
   return swinging;
