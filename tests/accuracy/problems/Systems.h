@@ -8,10 +8,26 @@
 
 namespace lab {
 
-/// A point in the plane under gravity with linear drag, in N·s/m, and quadratic drag, in N·s²/m², for 1 kg.
-struct Flight {
-  static constexpr int kDimension = 4;
+template <int N>
+struct FirstOrder {
+  static constexpr int kDimension = N;
+  static constexpr bool kSecondOrder = false;
+  BodyState body(int, const double*) const { return {}; }  // no scene has bodies with such equations
+};
+
+template <int N>
+struct SecondOrder {
+  static constexpr int kDimension = N;
   static constexpr bool kSecondOrder = true;
+};
+
+/// A point in the plane by its coordinates.
+struct PlanePoint : SecondOrder<4> {
+  BodyState body(int, const double* y) const { return {{y[0], y[1]}, {y[2], y[3]}, 0, 0}; }
+};
+
+/// A point in the plane under gravity with linear drag, in N·s/m, and quadratic drag, in N·s²/m², for 1 kg.
+struct Flight : PlanePoint {
   Vec velocity;
   double gravity = 0;
   double linear = 0;
@@ -29,14 +45,11 @@ struct Flight {
     rates[2] = -drag * vx;
     rates[3] = -drag * vy - Real(gravity);
   }
-  BodyState body(int, const double* y) const { return {{y[0], y[1]}, {y[2], y[3]}, 0, 0}; }
 };
 
 /// A mass of 1 kg on a spring along a line, which hangs down or lies. y[0] is the mass's distance from
 /// `rest`, which is `direction` × rest length from the anchor at 0.
-struct SpringLine {
-  static constexpr int kDimension = 2;
-  static constexpr bool kSecondOrder = true;
+struct SpringLine : SecondOrder<2> {
   double stiffness = 1;
   double damping = 0;
   double gravity = 0;  ///< acceleration along the line, away from the anchor
@@ -56,9 +69,7 @@ struct SpringLine {
 };
 
 /// A point on a massless rod, by its angle from straight down.
-struct Pendulum {
-  static constexpr int kDimension = 2;
-  static constexpr bool kSecondOrder = true;
+struct Pendulum : SecondOrder<2> {
   double gravity = 10;
   double length = 1;
   double angle = 0;  ///< initial angle
@@ -76,9 +87,7 @@ struct Pendulum {
 };
 
 /// A pendulum in Cartesian coordinates, in which the rod is a stiff spring.
-struct StiffPendulum {
-  static constexpr int kDimension = 4;
-  static constexpr bool kSecondOrder = true;
+struct StiffPendulum : PlanePoint {
   double gravity = 10;
   double stiffness = 1e6;
 
@@ -92,14 +101,11 @@ struct StiffPendulum {
     rates[2] = -pull * y[0];
     rates[3] = -pull * y[1] - Real(gravity);
   }
-  BodyState body(int, const double* y) const { return {{y[0], y[1]}, {y[2], y[3]}, 0, 0}; }
 };
 
 /// A charge in a uniform magnetic field, given by the cyclotron frequency, and a uniform electric field along
 /// x.
-struct Charge {
-  static constexpr int kDimension = 4;
-  static constexpr bool kSecondOrder = true;
+struct Charge : PlanePoint {
   double frequency = 100;  ///< rad/s
   double push = 100;       ///< m/s²
   Vec velocity{1, 0};
@@ -112,13 +118,10 @@ struct Charge {
     rates[2] = Real(push) + Real(frequency) * y[3];
     rates[3] = Real(-frequency) * y[2];
   }
-  BodyState body(int, const double* y) const { return {{y[0], y[1]}, {y[2], y[3]}, 0, 0}; }
 };
 
 /// The Van der Pol oscillator: x'' = ((1 − x²)x' − x)/ε.
-struct VanDerPol {
-  static constexpr int kDimension = 2;
-  static constexpr bool kSecondOrder = true;
+struct VanDerPol : SecondOrder<2> {
   double epsilon = 1e-6;
 
   std::vector<double> start() const { return {2, 0}; }
@@ -131,10 +134,7 @@ struct VanDerPol {
 };
 
 /// Robertson's chemical reaction: three species with rates from 0.04 to 3e7.
-struct Robertson {
-  static constexpr int kDimension = 3;
-  static constexpr bool kSecondOrder = false;
-
+struct Robertson : FirstOrder<3> {
   std::vector<double> start() const { return {1, 0, 0}; }
   template <class Real>
   void rate(const Real&, const Real* y, Real* rates) const {
@@ -145,14 +145,10 @@ struct Robertson {
     rates[1] = slow - back - fast;
     rates[2] = fast;
   }
-  BodyState body(int, const double*) const { return {}; }
 };
 
 /// The "high irradiance response" of a plant, with eight species (Hairer & Wanner, Solving ODEs II, IV.10).
-struct Hires {
-  static constexpr int kDimension = 8;
-  static constexpr bool kSecondOrder = false;
-
+struct Hires : FirstOrder<8> {
   std::vector<double> start() const { return {1, 0, 0, 0, 0, 0, 0, 0.0057}; }
   template <class Real>
   void rate(const Real&, const Real* y, Real* rates) const {
@@ -166,13 +162,10 @@ struct Hires {
     rates[6] = Real(280) * y[5] * y[7] - Real(1.81) * y[6];
     rates[7] = -rates[6];
   }
-  BodyState body(int, const double*) const { return {}; }
 };
 
 /// A planet around a fixed sun at 0. It starts at its point nearest to the sun.
-struct Kepler {
-  static constexpr int kDimension = 4;
-  static constexpr bool kSecondOrder = true;
+struct Kepler : PlanePoint {
   double mu = 1;            ///< m³/s²
   double eccentricity = 0;  ///< the semi-major axis is 1 m
 
@@ -188,13 +181,10 @@ struct Kepler {
     rates[2] = -pull * y[0];
     rates[3] = -pull * y[1];
   }
-  BodyState body(int, const double* y) const { return {{y[0], y[1]}, {y[2], y[3]}, 0, 0}; }
 };
 
 /// Two points of 1 kg on rods of 1 m, by the rods' angles from straight down.
-struct DoublePendulum {
-  static constexpr int kDimension = 4;
-  static constexpr bool kSecondOrder = true;
+struct DoublePendulum : SecondOrder<4> {
   double gravity = 10;
   double angle = 0;  ///< initial angle of both rods
 
