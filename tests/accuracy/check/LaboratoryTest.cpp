@@ -37,15 +37,15 @@ Method integrator(Rule rule, Method::Kind kind) {
 }
 
 double errorOf(const Case& its_case, const Method& method, int substeps) {
-  return measure(its_case, method, substeps, 1).errors[0];
+  return judge(its_case, method, substeps).errors[0];
 }
 
 // Returns the order from the phase error at 8 and 16 sub-steps, on an undamped spring of 1 Hz.
 double orderOf(const std::string& method) {
   const std::vector<Case> cases = casesOf("3");
   const Case& spring = cases[0];
-  const double coarse = measure(spring, methodOf(method), 8, 1).errors[1];
-  const double fine = measure(spring, methodOf(method), 16, 1).errors[1];
+  const double coarse = judge(spring, methodOf(method), 8).errors[1];
+  const double fine = judge(spring, methodOf(method), 16).errors[1];
   return std::log2(coarse / fine);
 }
 
@@ -81,7 +81,7 @@ TEST(Laboratory, PlantedErrorMissesItsTarget) {
     {
       Records records(directory);
       records.describe(problem, cases);
-      const Measurement measurement = measure(flight, method, 1, 5);
+      const Measurement measurement = judge(flight, method, 1);
       records.add(problem, flight, method, 1, measurement);
       EXPECT_EQ(records.allMet(), !planted);
       EXPECT_EQ(measurement.errors[0] > 1e-3, planted);
@@ -157,7 +157,7 @@ TEST(Laboratory, SlowestTickIsJudgedByItsTimeLimit) {
   for (const double impacts : {0.0, 10'000.0}) {
     const Method method{"stumbling", "stumbling", "1", Method::Kind::PRODUCT,
                         [=](const Scene&) { return std::make_unique<Stumbling>(impacts); }};
-    const Measurement measurement = measure(flight, method, 1, 1);
+    const Measurement measurement = measureApart(flight, method, 1, 1, 60);
     EXPECT_GE(measurement.cpu.worst, 3000);
     Records records("");
     records.add(problem, flight, method, 1, measurement);
@@ -175,7 +175,7 @@ TEST(Laboratory, TickTimeLimitGrowsWithBodiesAndImpacts) {
 TEST(Laboratory, DivergingMethodFailsWithAReason) {
   const std::vector<Case> cases = casesOf("4");
   const Case& stiffest = cases.back();
-  const Measurement measurement = measure(stiffest, methodOf("euler"), 1, 1);
+  const Measurement measurement = judge(stiffest, methodOf("euler"), 1);
   EXPECT_TRUE(std::isinf(measurement.errors[0]));
   EXPECT_EQ(measurement.reason, "blew up");
 }
@@ -213,7 +213,7 @@ TEST(Laboratory, CrashingOrEndlessMethodIsReportedAsFailure) {
 
 TEST(Laboratory, SeparateProcessMeasuresTheSameErrors) {
   const std::vector<Case> cases = casesOf("5");
-  const Measurement here = measure(cases[0], methodOf("verlet"), 2, 1);
+  const Measurement here = judge(cases[0], methodOf("verlet"), 2);
   const Measurement apart = measureApart(cases[0], methodOf("verlet"), 2, 1, 60);
   EXPECT_EQ(here.errors, apart.errors);
   EXPECT_GT(apart.cpu.median, 0);

@@ -1,5 +1,6 @@
 #include "Measurement.h"
 
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,6 +11,7 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -108,61 +110,31 @@ constexpr CpuTime unknownTime() {
   return {kNaN, kNaN, kNaN, kNaN, kNaN, kNaN};
 }
 
-// Carries the results of a child process: the errors as soon as they are known, then the times.
-class Pipe {
- public:
-  Pipe() {
-    if (pipe(m_ends) != 0) throw std::runtime_error("no pipe");
-  }
-  ~Pipe() {
-    close(m_ends[0]);
-    closeWriter();
-  }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
+constexpr std::size_t kReasonSize = 64;
+constexpr std::size_t kMaxMetrics = 8;
 
-  void closeWriter() {
-    if (m_ends[1] >= 0) close(m_ends[1]);
-    m_ends[1] = -1;
-  }
-  void put(const void* data, std::size_t size) const {
-    if (write(m_ends[1], data, size) != static_cast<ssize_t>(size)) _exit(1);
-  }
-  /// False if the child ended before it had written `size` bytes.
-  bool get(void* data, std::size_t size) const {
-    char* to = static_cast<char*>(data);
-    while (size > 0) {
-      const ssize_t got = read(m_ends[0], to, size);
-      if (got <= 0) return false;
-      to += got;
-      size -= static_cast<std::size_t>(got);
-    }
-    return true;
-  }
-
- private:
-  int m_ends[2] = {-1, -1};
+// The results of a child process: the errors as soon as they are known, then the times.
+struct Results {
+  bool judged = false;
+  bool timed = false;
+  bool expressed = true;
+  char reason[kReasonSize] = {};
+  double errors[kMaxMetrics] = {};
+  CpuTime cpu;
 };
 
-constexpr std::size_t kReasonSize = 64;
-
-void putJudgement(const Pipe& pipe, const Measurement& measurement) {
-  char reason[kReasonSize] = {};
-  std::strncpy(reason, measurement.reason.c_str(), kReasonSize - 1);
-  pipe.put(&measurement.expressed, sizeof measurement.expressed);
-  pipe.put(reason, kReasonSize);
-  pipe.put(measurement.errors.data(), measurement.errors.size() * sizeof(double));
+void release(Results* p_results) {
+  munmap(p_results, sizeof(Results));
 }
 
-bool getJudgement(const Pipe& pipe, Measurement& measurement) {
-  char reason[kReasonSize] = {};
-  if (!pipe.get(&measurement.expressed, sizeof measurement.expressed)) return false;
-  if (!pipe.get(reason, kReasonSize)) return false;
-  measurement.reason = reason;
-  return pipe.get(measurement.errors.data(), measurement.errors.size() * sizeof(double));
+// Returns results in memory that this process shares with its children.
+std::unique_ptr<Results, decltype(&release)> sharedResults() {
+  void* memory = mmap(nullptr, sizeof(Results), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) throw std::runtime_error("no shared memory");
+  return {new (memory) Results, &release};
 }
 
-[[noreturn]] void child(const Pipe& pipe, const Case& its_case, const Method& method, int substeps, int runs,
+[[noreturn]] void child(Results& results, const Case& its_case, const Method& method, int substeps, int runs,
                         int most_seconds) {
   const rlimit limit{static_cast<rlim_t>(most_seconds), static_cast<rlim_t>(most_seconds)};
   const rlimit no_core{0, 0};
@@ -170,10 +142,13 @@ bool getJudgement(const Pipe& pipe, Measurement& measurement) {
   setrlimit(RLIMIT_CORE, &no_core);
   if (std::freopen("/dev/null", "w", stderr) == nullptr) _exit(1);  // hides a library's messages on a crash
   const Measurement measurement = judge(its_case, method, substeps);
-  putJudgement(pipe, measurement);
+  results.expressed = measurement.expressed;
+  std::strncpy(results.reason, measurement.reason.c_str(), kReasonSize - 1);
+  std::copy(measurement.errors.begin(), measurement.errors.end(), results.errors);
+  results.judged = true;
   if (measurement.expressed) {
-    const CpuTime cpu = timeRuns(its_case, method, substeps, runs);
-    pipe.put(&cpu, sizeof cpu);
+    results.cpu = timeRuns(its_case, method, substeps, runs);
+    results.timed = true;
   }
   _exit(0);
 }
@@ -206,31 +181,27 @@ Measurement judge(const Case& its_case, const Method& method, int substeps) {
   return measurement;
 }
 
-Measurement measure(const Case& its_case, const Method& method, int substeps, int runs) {
-  Measurement measurement = judge(its_case, method, substeps);
-  if (measurement.expressed) measurement.cpu = timeRuns(its_case, method, substeps, runs);
-  return measurement;
-}
-
 Measurement measureApart(const Case& its_case, const Method& method, int substeps, int runs,
                          int most_seconds) {
-  Pipe pipe;
+  if (its_case.metrics.size() > kMaxMetrics) throw std::logic_error("too many metrics");
+  const auto results = sharedResults();
   const pid_t pid = fork();
   if (pid < 0) throw std::runtime_error("no process");
-  if (pid == 0) child(pipe, its_case, method, substeps, runs, most_seconds);
-  pipe.closeWriter();
-
-  Measurement measurement;
-  measurement.cpu = unknownTime();
-  measurement.errors.assign(its_case.metrics.size(), std::numeric_limits<double>::infinity());
-  const bool judged = getJudgement(pipe, measurement);
-  const bool timed = judged && measurement.expressed && pipe.get(&measurement.cpu, sizeof measurement.cpu);
+  if (pid == 0) child(*results, its_case, method, substeps, runs, most_seconds);
   int status = 0;
   waitpid(pid, &status, 0);
-  if (!judged) {
-    std::fill(measurement.errors.begin(), measurement.errors.end(), std::numeric_limits<double>::infinity());
+
+  Measurement measurement;
+  measurement.expressed = results->expressed;
+  measurement.cpu = results->timed ? results->cpu : unknownTime();
+  if (!results->judged) {
+    measurement.errors.assign(its_case.metrics.size(), std::numeric_limits<double>::infinity());
     measurement.reason = deathOf(status);
-  } else if (measurement.expressed && !timed && measurement.reason.empty()) {
+    return measurement;
+  }
+  measurement.errors.assign(results->errors, results->errors + its_case.metrics.size());
+  measurement.reason = results->reason;
+  if (measurement.expressed && !results->timed && measurement.reason.empty()) {
     measurement.reason = "not timed: " + deathOf(status);
   }
   return measurement;

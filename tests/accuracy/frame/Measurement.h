@@ -31,11 +31,8 @@ struct Measurement {
 Measurement judge(const Case& its_case, const Method& method, int substeps);
 
 /// Computes the errors in one run, then times `runs` further runs of the case's scene without computing
-/// errors.
-Measurement measure(const Case& its_case, const Method& method, int substeps, int runs);
-
-/// Like measure(), in its own process, so that a crash or more than `most_seconds` of CPU time is only a
-/// failed measurement.
+/// errors. All of this is done in its own process, so that a crash or more than `most_seconds` of CPU time is
+/// only a failed measurement.
 Measurement measureApart(const Case& its_case, const Method& method, int substeps, int runs,
                          int most_seconds);
 
