@@ -30,24 +30,6 @@ bool isValid(const Body& body) {
   return body.mass > 1e-9 && !body.shapes.empty();
 }
 
-// Adds the shapes and returns the moment of inertia per mass. With several shapes it is that of the last one,
-// because no such body can be pushed here.
-double addShapes(const Body& body, ContactBody& made) {
-  double inertia = 0;
-  for (const Shape& shape : body.shapes) {
-    physics::ConvexShape own;
-    if (shape.kind == Shape::Kind::CIRCLE) {
-      physics::makeCircle(shape.radius, from(shape.centre), own);
-    } else {
-      physics::makeBox(shape.half.x, shape.half.y, from(shape.centre), {}, 0, own);
-    }
-    made.shapes.push_back(own);
-    inertia = inertiaOf(shape);
-  }
-  made.turned.resize(made.shapes.size());
-  return inertia;
-}
-
 class ContactSimulation : public Simulation {
  public:
   ContactSimulation(const Scene& scene, std::unique_ptr<ContactSolver> solver)
@@ -76,7 +58,8 @@ ContactScene::ContactScene(const Scene& scene) : gravity(length(scene.gravity)) 
     made.rotation = physics::rotationBy(body.angle);
     made.spin = body.spin;
     made.friction = body.friction;
-    const double inertia = addShapes(body, made);
+    const double inertia = addShapes(body, 1, made.shapes);
+    made.turned.resize(made.shapes.size());
     if (body.motion == Motion::FIXED) {
       made.velocity = {};
       made.spin = 0;
@@ -245,6 +228,21 @@ void shift(ContactScene& scene, const ContactPair& pair, const ContactArms& arms
   a.turnBy(-a.inverse_inertia * cross(arms.a, impulse));
   b.position += b.inverse_mass * impulse;
   b.turnBy(b.inverse_inertia * cross(arms.b, impulse));
+}
+
+double addShapes(const Body& body, double up, std::vector<physics::ConvexShape>& shapes) {
+  double inertia = 0;
+  for (const Shape& shape : body.shapes) {
+    const Vec2 centre{shape.centre.x, up * shape.centre.y};
+    physics::ConvexShape& made = shapes.emplace_back();
+    if (shape.kind == Shape::Kind::CIRCLE) {
+      physics::makeCircle(shape.radius, centre, made);
+    } else {
+      physics::makeBox(shape.half.x, shape.half.y, centre, {}, 0, made);
+    }
+    inertia = inertiaOf(shape);
+  }
+  return inertia;
 }
 
 SimulationPtr runContacts(const Scene& scene, std::unique_ptr<ContactSolver> solver) {

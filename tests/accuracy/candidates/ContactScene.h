@@ -104,6 +104,11 @@ double massOf(const ContactScene& scene, const ContactPair& pair, const ContactA
 void push(ContactScene& scene, const ContactPair& pair, const ContactArms& arms, Vec2 impulse);
 void shift(ContactScene& scene, const ContactPair& pair, const ContactArms& arms, Vec2 impulse);
 
+/// Adds a body's shapes. `up` is the direction of y in the scene: 1, or −1 if it points down in the
+/// candidate. Returns the moment of inertia per mass. With several shapes it is that of the last one, because
+/// no such body can be pushed here.
+double addShapes(const Body& body, double up, std::vector<naiad::physics::ConvexShape>& shapes);
+
 /// Common interface of the candidates.
 class ContactSolver {
  public:

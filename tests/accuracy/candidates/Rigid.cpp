@@ -1,8 +1,7 @@
 // Naiad's rigid bodies in the laboratory's scenes. Lengths in metres, time in ticks of 1/30 s.
-#include <cmath>
 #include <vector>
 
-#include "Method.h"
+#include "ContactScene.h"
 #include "physics/rigid/RigidWorld.h"
 
 namespace lab {
@@ -62,17 +61,7 @@ class Rigid : public Simulation {
     m_origin = physics::placeAt(down(m_scene.origin));
     for (const Body& body : m_scene.bodies) {
       std::vector<physics::ConvexShape> shapes;
-      double inertia = 0;
-      for (const Shape& shape : body.shapes) {
-        physics::ConvexShape made;
-        if (shape.kind == Shape::Kind::CIRCLE) {
-          physics::makeCircle(shape.radius, down(shape.centre), made);
-        } else {
-          physics::makeBox(shape.half.x, shape.half.y, down(shape.centre), {}, 0, made);
-        }
-        shapes.push_back(made);
-        inertia = inertiaOf(shape);
-      }
+      const double inertia = addShapes(body, -1, shapes);
       physics::RigidBody rigid;
       rigid.place = m_origin + down(body.position);
       rigid.velocity = kTick * down(body.velocity);

@@ -109,14 +109,25 @@ class Direct : public Simulation {
   int m_id;
 };
 
-class Euler : public Simulation {
+class SingleBody : public Simulation {
  public:
-  explicit Euler(const Scene& scene)
+  explicit SingleBody(const Scene& scene)
       : m_is_beam(!scene.beams.empty()),
         m_gravity(toTicks(scene.gravity, 1 / kPerSecondSquared)),
-        m_body(bodyOf(scene)) {
-    m_elastic.prepare(m_body);
-  }
+        m_body(bodyOf(scene)) {}
+  BodyState body(int index) const override { return stateOf(m_body, m_is_beam, index); }
+
+ private:
+  const bool m_is_beam;
+
+ protected:
+  const physics::Vec2 m_gravity;
+  physics::SoftBody m_body;
+};
+
+class Euler : public SingleBody {
+ public:
+  explicit Euler(const Scene& scene) : SingleBody(scene) { m_elastic.prepare(m_body); }
   void step(double tick, int substeps) override {
     const double h = tick * kPerSecond / substeps;
     for (int i = 0; i < substeps; ++i) {
@@ -128,27 +139,18 @@ class Euler : public Simulation {
       m_elastic.finish(m_body);
     }
   }
-  BodyState body(int index) const override { return stateOf(m_body, m_is_beam, index); }
 
  private:
-  bool m_is_beam;
-  physics::Vec2 m_gravity;
-  physics::SoftBody m_body;
   physics::SoftElastic m_elastic;
 };
 
-class Projected : public Simulation {
+class Projected : public SingleBody {
  public:
-  explicit Projected(const Scene& scene)
-      : m_is_beam(!scene.beams.empty()),
-        m_gravity(toTicks(scene.gravity, 1 / kPerSecondSquared)),
-        m_body(bodyOf(scene)),
-        m_before(m_body.nodes.size()) {}
+  explicit Projected(const Scene& scene) : SingleBody(scene), m_before(m_body.nodes.size()) {}
 
   void step(double tick, int substeps) override {
     for (int i = 0; i < substeps; ++i) substep(tick * kPerSecond / substeps);
   }
-  BodyState body(int index) const override { return stateOf(m_body, m_is_beam, index); }
 
  private:
   void substep(double h) {
@@ -186,9 +188,6 @@ class Projected : public Simulation {
     }
   }
 
-  bool m_is_beam;
-  physics::Vec2 m_gravity;
-  physics::SoftBody m_body;
   std::vector<physics::Vec2> m_before;
 };
 
