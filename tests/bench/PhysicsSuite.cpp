@@ -3,7 +3,6 @@
 // Both engines start from equal positions and run one after the other. Every tick counts, including the
 // first.
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <limits>
@@ -16,12 +15,10 @@
 #include "ElapsedTime.h"
 #include "ResultLine.h"
 #include "Suite.h"
-#include "engine/managers/WorldManager.h"
-#include "engine/world/World.h"
 #include "physics/Run.h"
 #include "physics/Scenes.h"
-#include "physics/body/PhysicsManager.h"
-#include "physics/body/SoftObject.h"
+#include "tests/accuracy/frame/Method.h"
+#include "tests/accuracy/product/Default.h"
 
 namespace bench {
 namespace {
@@ -49,7 +46,7 @@ struct Level {
 
 struct Case {
   const char* name;
-  physics::Scene (*make)();
+  lab::Scene (*make)();
   std::vector<Level> levels;
 };
 
@@ -57,14 +54,14 @@ constexpr df::Accuracy kFast = df::ACCURACY_FAST;
 constexpr df::Accuracy kDefault = df::ACCURACY_DEFAULT;
 
 const std::vector<Case> kCases = {
-    {"pyramid60", physics::makePyramid60, {{kFast, {7.5, .036}}, {kDefault, {}}}},
-    {"pyramids100", physics::makePyramids100, {{kFast, {10, .005}}, {kDefault, {}}}},
-    {"tumbler500", physics::makeTumbler500, {{kFast, {3, .063}}, {kDefault, {1, .016}}}},
-    {"heap2000", physics::makeHeap2000, {{kFast, {2.5, .125}}, {kDefault, {}}}},
-    {"heap20000", physics::makeHeap20000, {{kFast, {2.5, .1}}, {kDefault, {}, false}}},
-    {"smash", physics::makeSmash, {{kFast, {10, .14}}, {kDefault, {}}}},
-    {"chain100", physics::makeChain100, {{kFast, {}}, {kDefault, {.5, kAny, 1e-9}}}},
-    {"grid100", physics::makeGrid100, {{kFast, {2, kAny, .4}}, {kDefault, {}}}},
+    {"pyramid60", lab::makePyramid60, {{kFast, {7.5, .036}}, {kDefault, {}}}},
+    {"pyramids100", lab::makePyramids100, {{kFast, {10, .005}}, {kDefault, {}}}},
+    {"tumbler500", lab::makeTumbler500, {{kFast, {3, .063}}, {kDefault, {1, .016}}}},
+    {"heap2000", lab::makeHeap2000, {{kFast, {2.5, .125}}, {kDefault, {}}}},
+    {"heap20000", lab::makeHeap20000, {{kFast, {2.5, .1}}, {kDefault, {}, false}}},
+    {"smash", lab::makeSmash, {{kFast, {10, .14}}, {kDefault, {}}}},
+    {"chain100", lab::makeChain100, {{kFast, {}}, {kDefault, {.5, kAny, 1e-9}}}},
+    {"grid100", lab::makeGrid100, {{kFast, {2, kAny, .4}}, {kDefault, {}}}},
 };
 
 struct Round {
@@ -77,9 +74,15 @@ struct Round {
   double ratio() const { return box2d.meanMs(ticks()) / ours.meanMs(ticks()); }
 };
 
-Round runRound(const physics::Scene& scene, df::Accuracy accuracy) {
-  return {run(scene, *physics::makeNaiad(scene, accuracy), kMostSeconds),
-          run(scene, *physics::makeBox2d(scene), kMostSeconds)};
+Run checkedRun(const lab::Scene& scene, const lab::SimulationPtr& simulation, int substeps) {
+  physics::demandStart(scene, *simulation);
+  return physics::run(scene, *simulation, substeps, kMostSeconds);
+}
+
+Round runRound(const lab::Scene& scene, df::Accuracy accuracy) {
+  const lab::Method& box2d = *lab::Method::all().front();  // the only one in this program
+  return {checkedRun(scene, lab::bodiesAt(accuracy, scene), 1),
+          checkedRun(scene, box2d.build(scene), lab::kBox2dSteps)};
 }
 
 template <class Value>
@@ -90,10 +93,10 @@ double medianOf(const std::vector<Round>& rounds, Value value) {
 }
 
 // Reports the errors of the first round, because in each round the engines get equal results.
-void addErrors(Line& line, const std::string& prefix, const physics::Scene& scene, const Run& run) {
+void addErrors(Line& line, const std::string& prefix, const lab::Scene& scene, const Run& run) {
   if (run.looks == 0) return;
-  if (scene.collide) line.add(prefix + "overlap_m", run.meanOverlap());
-  if (!scene.hinges.empty()) line.add(prefix + "joint_error_m", run.joint_error);
+  if (scene.collides) line.add(prefix + "overlap_m", run.meanOverlap());
+  if (!scene.joints.empty()) line.add(prefix + "joint_error_m", run.joint_error);
 }
 
 bool meets(const Target& target, double ratio, const Run& run) {
@@ -102,7 +105,7 @@ bool meets(const Target& target, double ratio, const Run& run) {
          run.joint_error <= target.most_joint_error;
 }
 
-void report(Line& line, const Level& level, const physics::Scene& scene, const std::vector<Round>& rounds) {
+void report(Line& line, const Level& level, const lab::Scene& scene, const std::vector<Round>& rounds) {
   const Run& ours = rounds.front().ours;
   const double ratio = medianOf(rounds, [](const Round& r) { return r.ratio(); });
   line.add("ms_per_tick", medianOf(rounds, [](const Round& r) { return r.ours.meanMs(r.ticks()); }));
@@ -119,9 +122,9 @@ void report(Line& line, const Level& level, const physics::Scene& scene, const s
 void measure(const Case& c, const Level& level, const Options& options) {
   if (options.quick && !level.quick) return;
   progress(std::string("physics: ") + c.name + ", " + level.name());
-  const physics::Scene scene = c.make();
+  const lab::Scene scene = c.make();
   Line line("physics");
-  line.add("scene", c.name).add("level", level.name()).add("sleep", scene.sleep ? "on" : "off");
+  line.add("scene", c.name).add("level", level.name()).add("sleep", scene.may_sleep ? "on" : "off");
   line.add("bodies", scene.countDynamic());
   std::vector<Round> rounds;
   const std::size_t wanted = options.quick ? 1 : kRounds;
@@ -156,43 +159,21 @@ const Suite s_suite("physics", "scenes of rigid bodies, against Box2D: time and 
                     });
 
 // The cost of a cloth with many nodes per tick, that is, per WM.update(), and the stretch of its threads.
-
-/// Returns the largest stretch of a thread, relative to its rest length. `mesh` is in cells.
-double stretchOf(const df::Cloth& cloth, df::Vector mesh) {
-  double most = 0;
-  const auto see = [&](int from, int to, double rest) {
-    const df::Vector apart = cloth.getNodePosition(to) - cloth.getNodePosition(from);
-    most = std::max(most, std::hypot(apart.x(), apart.y() * mesh.x() / mesh.y()) / rest - 1);
-  };
-  for (int i = 0; i + 1 < cloth.getColumns(); ++i) {
-    for (int j = 0; j + 1 < cloth.getRows(); ++j) {
-      see(cloth.getNode(i, j), cloth.getNode(i + 1, j), mesh.x());
-      see(cloth.getNode(i, j), cloth.getNode(i, j + 1), mesh.x());
-    }
-  }
-  return most;
-}
-
 void measure(int threads, int ticks) {
+  constexpr double kGravity = 36;  // m/s²: 0.02 cells per tick² if a cell is twice as high as wide
   progress("cloth: " + std::to_string(threads) + " threads each way");
   Line line("cloth");
-  df::World world;
-  const df::World::Scope scope(world);
-  PM.setGravity(df::Vector(0, 0.02));
-  const double width = threads - 1, height = width / PM.getAspect();  // square meshes
-  auto* p_cloth = new df::Cloth(df::Vector(10, 5), width, height, 1, 5, threads, threads);
-  p_cloth->pin(p_cloth->getNode(0, 0));
-  p_cloth->pin(p_cloth->getNode(threads - 1, 0));
+  const lab::Scene scene = lab::makeCloth(threads, kGravity);
+  const lab::SimulationPtr cloth = lab::clothByDefault(scene);
   double sum = 0, worst = 0, stretch = 0;
   for (int tick = 0; tick < ticks; ++tick) {
     const double begin = cpuNanoseconds();
-    world.tick();
+    cloth->step(scene.tick, 1);
     const double ms = (cpuNanoseconds() - begin) / 1e6;
     sum += ms;
     worst = std::max(worst, ms);
-    stretch = std::max(stretch, stretchOf(*p_cloth, {1, 1 / PM.getAspect()}));
+    stretch = std::max(stretch, lab::widestStretch(scene, lab::statesOf(scene, *cloth)));
   }
-  world.shutDown();
   line.add("nodes", threads * threads).add("ticks", ticks);
   line.add("ms_per_tick", sum / ticks).add("worst_ms", worst).add("stretch", stretch);
   line.add("ok", worst <= 60 && stretch <= 0.05 ? 1 : 0);

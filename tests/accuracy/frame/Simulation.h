@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "Scene.h"
+#include "tests/accuracy/scene/Scene.h"
 
 namespace lab {
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "BenchScene.h"
 #include "Problem.h"
 #include "physics/Overlap.h"
 
@@ -20,13 +19,10 @@ constexpr double kDrum = 10;    // distance from its centre to each wall, m
 constexpr int kFallen = 30;     // ticks until the boxes in the drum have fallen onto each other
 constexpr double kOut = 16;     // a box at this distance from the drum's centre, in metres, is outside
 
-// Returns the deepest overlap of two squares, among all bodies except the first.
-double deepest(const Simulation& simulation, int count, double half) {
-  heaps::Body square;
-  square.parts = {{.half_width = half, .half_height = half}};
-  std::vector<heaps::Pose> poses;
-  for (int i = 1; i < count; ++i) poses.push_back(poseOf(simulation.body(i)));
-  return heaps::deepestOverlap(std::vector<heaps::Body>(poses.size(), square), poses);
+// Returns the deepest overlap among all bodies except the first.
+double deepest(const Scene& scene, const Simulation& simulation) {
+  const std::vector<BodyState> states = statesOf(scene, simulation);
+  return deepestOverlap({scene.bodies.begin() + 1, scene.bodies.end()}, {states.begin() + 1, states.end()});
 }
 
 Case pyramid() {
@@ -54,7 +50,7 @@ Case pyramid() {
       if (std::abs(to.y - from.y) > 2) throw Failure("collapsed");
       drift = std::max(drift, std::abs(to.x - from.x));
     }
-    return std::vector<double>{deepest(*end, count, kCrate), drift};
+    return std::vector<double>{deepest(scene, *end), drift};
   };
   return standing;
 }
@@ -89,7 +85,7 @@ Case tumbler() {
     double most = 0, sum = 0;
     const SimulationPtr end = trial.run(scene, [&](int tick, const Simulation& simulation) {
       if (tick <= kFallen) return;
-      const double now = deepest(simulation, count, kBox);
+      const double now = deepest(scene, simulation);
       most = std::max(most, now);
       sum += now;
     });

@@ -1,9 +1,12 @@
-// Problem 11b: the catenary, and the cantilever's deflection and first frequency.
+// Problem 11b: the catenary, and the cantilever's deflection and first frequency. Problem 28: cloths that
+// hang by two corners.
 #include <algorithm>
 #include <complex>
 
 #include "Path.h"
 #include "Real.h"
+#include "physics/Overlap.h"
+#include "physics/Scenes.h"
 
 namespace lab {
 namespace {
@@ -45,10 +48,9 @@ Case catenary(int links) {
   const double a = catenaryOf(kSpan, kLength);
   const double sag = a * (std::cosh(kSpan / 2 / a) - 1);
   hanging.metrics = {{"sag", "relative error of the sag in the middle", 0.01, 0}};
-  hanging.judge = [scene, sag, links](const Trial& trial) {
-    const SimulationPtr end = trial.run(scene);
-    return std::vector<double>{std::abs(-end->body(links / 2 - 1).position.y / sag - 1)};
-  };
+  hanging.judge = atEnd(scene, [sag, links](const Simulation& end) {
+    return std::abs(-end.body(links / 2 - 1).position.y / sag - 1);
+  });
   return hanging;
 }
 
@@ -77,10 +79,9 @@ Case bending(int elements) {
   bent.scene.beams = {beam};
   bent.scene.ticks = 1200;
   bent.metrics = {{"deflection", "relative error of the tip's deflection", 0.01, 0}};
-  bent.judge = [scene = bent.scene, deflection](const Trial& trial) {
-    const SimulationPtr end = trial.run(scene);
-    return std::vector<double>{std::abs(-end->body(0).position.y / deflection - 1)};
-  };
+  bent.judge = atEnd(bent.scene, [deflection](const Simulation& end) {
+    return std::abs(-end.body(0).position.y / deflection - 1);
+  });
   return bent;
 }
 
@@ -157,9 +158,39 @@ std::vector<Case> makeSoft() {
           bending(32),  ringing(8),   ringing(16),  ringing(32)};
 }
 
+Case cloth(int side) {
+  Case hung(std::to_string(side), std::to_string(side) + " × " + std::to_string(side) + " nodes",
+            makeCloth(side, 18));
+  hung.is_crowd = true;
+  hung.long_run = side > 50;
+  hung.most_substeps = side > 50 ? 4 : 16;
+  hung.metrics = {{"stretch", "largest relative stretch of a thread over 10 s", 0.05, 1e-15},
+                  {"frozen", "cloths that froze", 0, 0}};
+  hung.judge = [scene = hung.scene](const Trial& trial) {
+    return trial.largest(scene, [&](int /*tick*/, const Simulation& simulation) {
+      return std::vector<double>{widestStretch(scene, statesOf(scene, simulation)),
+                                 static_cast<double>(simulation.frozen())};
+    });
+  };
+  return hung;
+}
+
+// Cloths of 25 × 25, 50 × 50 and 100 × 100 nodes with meshes of 1 m, held flat and hung by their two upper
+// corners, fall for 10 s. For peers they are points on rods. Correct: no thread gets longer.
+std::vector<Case> makeCloths() {
+  constexpr double kDearestTick = 60'000;  // limit of the slowest tick, µs
+  std::vector<Case> cases = {cloth(25), cloth(50), cloth(100)};
+  cases.back().tick_bound = {.base_us = kDearestTick, .each_us = 0};
+  return cases;
+}
+
 const RegisteredProblem soft_problem(
     "11b", "soft", makeSoft, "Catenary and cantilever",
     "Soft bodies have a right shape, too, and must come nearer to it with more nodes.");
+const RegisteredProblem cloths(
+    "28", "cloths", makeCloths, "Cloths",
+    "A cloth is the stiffest thing that an author makes without thinking of it: the corners bear all of its "
+    "weight, through threads of a ten-thousandth of it each.");
 
 }  // namespace
 }  // namespace lab

@@ -2,9 +2,8 @@
 // for scenes of another kind.
 #pragma once
 
-#include "Scene.h"
-#include "Simulation.h"
 #include "physics/body/PhysicsManager.h"
+#include "tests/accuracy/frame/Simulation.h"
 
 namespace lab {
 

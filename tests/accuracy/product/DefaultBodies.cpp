@@ -1,7 +1,6 @@
 // df::Body Objects with default settings; mass is in kg. A fixed, axis-parallel body is an ordinary HARD
 // Object if bodies may touch it.
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numbers>
 #include <vector>
@@ -52,7 +51,11 @@ class CountingBody : public df::Body {
 class DefaultBodies : public ProductWorld {
  public:
   DefaultBodies(df::Accuracy accuracy, const Scene& scene)
-      : ProductWorld(scene), m_origin(scene.origin), m_is_hearing(scene.hearing), m_collides(scene.collides) {
+      : ProductWorld(scene),
+        m_origin(scene.origin),
+        m_is_hearing(scene.hearing),
+        m_collides(scene.collides),
+        m_counts_contacts(scene.counts_contacts) {
     const df::World::Scope scope(m_world);
     PM.setAspect(1);
     PM.setGravity(cells(m_tick * m_tick * scene.gravity));
@@ -67,7 +70,7 @@ class DefaultBodies : public ProductWorld {
   ~DefaultBodies() override { clear(); }
 
   BodyState body(int index) const override {
-    const CountingBody* p_body = m_bodies[static_cast<std::size_t>(index)];
+    const df::Body* p_body = m_bodies[static_cast<std::size_t>(index)];
     if (p_body == nullptr) return {m_places[static_cast<std::size_t>(index)], {}, 0, 0};
     BodyState state = stateOf(p_body->getDisplacementFrom(cells(m_origin)), p_body->getVelocity());
     state.angle = p_body->getAngle();
@@ -118,7 +121,7 @@ class DefaultBodies : public ProductWorld {
       obstacle.setPosition(cells(m_origin + body.position));
       return;
     }
-    auto& made = make<CountingBody>(m_contacts);
+    df::Body& made = m_counts_contacts ? make<CountingBody>(m_contacts) : make<df::Body>();
     m_bodies.push_back(&made);
     if (body.shapes.empty() || !m_collides) made.setSolidness(df::SPECTRAL);
     if (m_is_hearing) made.setSolidness(df::SOFT);
@@ -142,7 +145,7 @@ class DefaultBodies : public ProductWorld {
 
   // Adds parts. Their centres are relative to the mass centre of the parts added so far; in a scene, to that
   // of the whole body.
-  static void addShapes(CountingBody& made, const std::vector<Shape>& shapes) {
+  static void addShapes(df::Body& made, const std::vector<Shape>& shapes) {
     double area = 0;
     Vec middle;
     for (const Shape& shape : shapes) {
@@ -180,12 +183,13 @@ class DefaultBodies : public ProductWorld {
   Vec m_origin;
   bool m_is_hearing;
   bool m_collides;
+  bool m_counts_contacts;
   double m_friction = -1;
   double m_restitution = -1;
   long m_contacts = 0;
   std::unique_ptr<SceneField> m_field;
-  std::vector<Vec> m_places;            // indexed by scene body
-  std::vector<CountingBody*> m_bodies;  // indexed by scene body; null: an Object
+  std::vector<Vec> m_places;        // indexed by scene body
+  std::vector<df::Body*> m_bodies;  // indexed by scene body; null: an Object
 };
 
 }  // namespace

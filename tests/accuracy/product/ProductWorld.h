@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "Simulation.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/world/Object.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldLog.h"
+#include "tests/accuracy/frame/Simulation.h"
 
 namespace lab {
 

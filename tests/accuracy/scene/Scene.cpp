@@ -1,5 +1,7 @@
 #include "Scene.h"
 
+#include <algorithm>
+
 namespace lab {
 
 Body point(Vec position, Vec velocity, double mass) {
@@ -69,6 +71,10 @@ Joint hinge(int a, int b, Vec at) {
   Joint joint = rod(a, at, b, at);
   joint.kind = Joint::Kind::HINGE;
   return joint;
+}
+
+int Scene::countDynamic() const {
+  return static_cast<int>(std::ranges::count(bodies, Motion::DYNAMIC, &Body::motion));
 }
 
 }  // namespace lab

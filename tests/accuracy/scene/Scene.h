@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -102,10 +103,19 @@ struct Cloth {
 };
 
 struct BodyState {
-  Vec position;  ///< relative to the scene's origin
-  Vec velocity;
+  Vec position{};  ///< relative to the scene's origin
+  Vec velocity{};
   double angle = 0;
   double spin = 0;
+};
+
+/// Region in which the centres of all dynamic bodies must be. A body outside has passed through a wall, or is
+/// more than half inside a wall.
+struct Room {
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec lower{-kInfinity, -kInfinity};
+  Vec upper{kInfinity, kInfinity};
+  int frame = -1;  ///< rotating body in whose axes the region is given; −1: the scene's axes
 };
 
 /// Returns the acceleration by a game's force field at time t, for a body in this state.
@@ -116,6 +126,7 @@ struct Scene {
   std::vector<Joint> joints;
   std::vector<Beam> beams;
   std::vector<Cloth> cloths;
+  Room room;
   Vec gravity;
   Field field;  ///< empty: none
   Vec origin;   ///< position of the scene in the world, in whole metres
@@ -125,6 +136,8 @@ struct Scene {
   bool may_sleep = false;
   /// If false, nothing touches anything.
   bool collides = true;
+  /// If false, no handlers receive collisions, and Simulation::contacts() is 0.
+  bool counts_contacts = true;
   /// If true, Box2D's boxes have their full sides, and its polygon skin adds to them; else they are smaller
   /// by the skin.
   bool has_full_sides = false;
@@ -144,6 +157,7 @@ struct Scene {
   /// True if there are only rigid bodies and joints.
   bool rigid() const { return !bodies.empty() && beams.empty() && !massless && !hearing; }
   double duration() const { return tick * ticks; }
+  int countDynamic() const;
 };
 
 }  // namespace lab

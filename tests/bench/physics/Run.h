@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "../ElapsedTime.h"
 #include "Overlap.h"
-#include "Scene.h"
-#include "Simulation.h"
+#include "Scenes.h"
 
 namespace bench::physics {
 
@@ -19,7 +19,7 @@ struct Run {
   std::vector<double> overlaps;  ///< deepest overlap in metres at each check, in scenes with collisions
   double joint_error = 0;        ///< largest gap in a hinge at any check, in metres
   int looks = 0;
-  int failed = 0;    ///< largest number of frozen, not finite or escaped bodies at any check or at the end
+  long failed = 0;   ///< largest number of frozen, not finite or escaped bodies at any check or at the end
   bool cut = false;  ///< stopped at the time limit
 
   /// Returns the mean time of the first `ticks` ticks.
@@ -36,49 +36,43 @@ struct Run {
   }
 };
 
-inline bool isFinite(const Pose& pose) {
-  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.cosine) &&
-         std::isfinite(pose.sine);
+inline bool isFinite(const lab::BodyState& state) {
+  return std::isfinite(state.position.x) && std::isfinite(state.position.y) && std::isfinite(state.angle);
 }
 
-inline std::vector<Pose> posesOf(const Scene& scene, const Simulation& simulation) {
-  std::vector<Pose> poses;
-  poses.reserve(scene.bodies.size());
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) poses.push_back(simulation.pose(i));
-  return poses;
-}
-
-inline int countFailed(const Scene& scene, const Simulation& simulation, const std::vector<Pose>& poses) {
-  int failed = 0;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (scene.bodies[i].motion != Motion::DYNAMIC) continue;
-    if (!isFinite(poses[i]) || simulation.isFrozen(i) || !scene.room.holds(poses, poses[i])) ++failed;
-  }
-  return failed;
-}
-
-inline void judge(const Scene& scene, const Simulation& simulation, bool measure, Run& result) {
-  const std::vector<Pose> poses = posesOf(scene, simulation);
-  result.failed = std::max(result.failed, countFailed(scene, simulation, poses));
-  if (!measure || !std::all_of(poses.begin(), poses.end(), isFinite)) return;
+inline void judge(const lab::Scene& scene, const lab::Simulation& simulation, bool measure, Run& result) {
+  const std::vector<lab::BodyState> states = lab::statesOf(scene, simulation);
+  result.failed = std::max(result.failed, lab::countLost(scene, simulation));
+  if (!measure || !std::all_of(states.begin(), states.end(), isFinite)) return;
   ++result.looks;
-  if (scene.collide) result.overlaps.push_back(deepestOverlap(scene.bodies, poses));
-  result.joint_error = std::max(result.joint_error, widestHinge(scene, poses));
+  if (scene.collides) result.overlaps.push_back(lab::deepestOverlap(scene.bodies, states));
+  result.joint_error = std::max(result.joint_error, lab::widestHinge(scene, states));
 }
 
-/// Runs all ticks of the scene, and checks after each tenth. Stops after the tick in which the engine's CPU
-/// time exceeds `most_seconds`.
-inline Run run(const Scene& scene, Simulation& simulation, double most_seconds) {
+/// Throws std::runtime_error if a body is not where the scene says, for example because the engine refused
+/// it.
+inline void demandStart(const lab::Scene& scene, const lab::Simulation& simulation) {
+  constexpr double kRounding = 1e-4;  // of float
+  const std::vector<lab::BodyState> states = lab::statesOf(scene, simulation);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (!(length(states[i].position - scene.bodies[i].position) < kRounding))
+      throw std::runtime_error("a body of a scene is elsewhere");
+  }
+}
+
+/// Runs all ticks of the scene, in `substeps` parts each, and checks after each tenth. Stops after the tick
+/// in which the engine's CPU time exceeds `most_seconds`.
+inline Run run(const lab::Scene& scene, lab::Simulation& simulation, int substeps, double most_seconds) {
   Run result;
   double left_ms = most_seconds * 1e3;
   for (int tick = 1; tick <= scene.ticks && !result.cut; ++tick) {
     const double begin = cpuNanoseconds();
-    simulation.tick();
+    simulation.step(scene.tick, substeps);
     const double ms = (cpuNanoseconds() - begin) / 1e6;
     result.tick_ms.push_back(ms);
     left_ms -= ms;
     result.cut = left_ms < 0 && tick < scene.ticks;
-    const bool look = tick % 10 == 0;
+    const bool look = tick % lab::kTicksPerLook == 0;
     if (look || result.cut || tick == scene.ticks) judge(scene, simulation, look, result);
   }
   return result;
