@@ -32,7 +32,7 @@ class Box2dTree {
   void add(Object& object) { object.handle = m_tree.CreateProxy(boxAt(object, object.x, object.y), &object); }
 
   void touching(const Object& mover, Real x, Real y, std::vector<Object*>& out) {
-    Query query{m_tree, mover, x, y, out};
+    Query query{{mover, x, y, out}, m_tree};
     m_tree.Query(&query, boxAt(mover, x, y));
   }
 
@@ -41,18 +41,9 @@ class Box2dTree {
   }
 
  private:
-  struct Query {
+  struct Query : PeerQuery<Real> {
     const b2DynamicTree& tree;
-    const Object& mover;
-    Real x;
-    Real y;
-    std::vector<Object*>& out;
-
-    bool QueryCallback(std::int32_t handle) {
-      auto* other = static_cast<Object*>(tree.GetUserData(handle));
-      if (other != &mover && mover.touches(*other, x, y)) out.push_back(other);
-      return true;
-    }
+    bool QueryCallback(std::int32_t handle) { return visit(static_cast<Object*>(tree.GetUserData(handle))); }
   };
 
   b2DynamicTree m_tree;
@@ -79,7 +70,7 @@ class Box2dWorld {
   }
 
   void touching(const Object& mover, Real x, Real y, std::vector<Object*>& out) {
-    Query query(mover, x, y, out);
+    Query query({mover, x, y, out});
     m_world.QueryAABB(&query, boxAt(mover, x, y));
   }
 
@@ -89,19 +80,13 @@ class Box2dWorld {
   // The world finds boxes by enlarged copies of them, so the query compares the exact boxes.
   class Query final : public b2QueryCallback {
    public:
-    Query(const Object& mover, Real x, Real y, std::vector<Object*>& out)
-        : m_mover(mover), m_x(x), m_y(y), m_out(out) {}
+    explicit Query(const PeerQuery<Real>& query) : m_query(query) {}
     bool ReportFixture(b2Fixture* fixture) override {
-      auto* other = reinterpret_cast<Object*>(fixture->GetUserData().pointer);
-      if (other != &m_mover && m_mover.touches(*other, m_x, m_y)) m_out.push_back(other);
-      return true;
+      return m_query.visit(reinterpret_cast<Object*>(fixture->GetUserData().pointer));
     }
 
    private:
-    const Object& m_mover;
-    Real m_x;
-    Real m_y;
-    std::vector<Object*>& m_out;
+    const PeerQuery<Real> m_query;
   };
 
   b2World m_world;

@@ -8,13 +8,7 @@ namespace bench {
 namespace {
 
 using Object = PeerBody<cpFloat>;
-
-struct Query {
-  const Object& mover;
-  cpFloat x;
-  cpFloat y;
-  std::vector<Object*>& out;
-};
+using Query = PeerQuery<cpFloat>;
 
 class ChipmunkHash {
  public:

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "Engine.h"
@@ -74,6 +73,20 @@ struct PeerBody {
   df::Solidness solidness;
   std::uint64_t turned = 0;  ///< last tick in which this object was blocked
   Tally& tally;
+};
+
+/// A question of an Index to its library: which bodies would touch the mover at (x, y)?
+template <class Real>
+struct PeerQuery {
+  const PeerBody<Real>& mover;
+  Real x;
+  Real y;
+  std::vector<PeerBody<Real>*>& out;
+
+  bool visit(PeerBody<Real>* other) const {
+    if (other != &mover && mover.touches(*other, x, y)) out.push_back(other);
+    return true;
+  }
 };
 
 template <class Index>
