@@ -15,16 +15,6 @@
 
 namespace bench {
 
-/// Puts an Object that has left a square world back, and reflects its velocity at the border.
-inline void turnBack(df::Object& object, double side) {
-  const df::Vector p = object.getPosition();
-  const df::Vector v = object.getVelocity();
-  const bool left_x = p.x() < 0 || p.x() >= side;
-  const bool left_y = p.y() < 0 || p.y() >= side;
-  object.setPosition(p - v);
-  object.setVelocity(df::Vector(left_x ? -v.x() : v.x(), left_y ? -v.y() : v.y()));
-}
-
 /// An Object of the workload, with handlers like a game's.
 class Ball : public df::Object {
  public:

@@ -61,4 +61,16 @@ struct Scene {
   int countMoving() const;
 };
 
+/// Puts an Object, of this engine or of the book's, that has left a square world back, and reflects its
+/// velocity at the border.
+template <class Object, class Number>
+void turnBack(Object& object, Number side) {
+  const auto p = object.getPosition();
+  const auto v = object.getVelocity();
+  const bool left_x = p.getX() < 0 || p.getX() >= side;
+  const bool left_y = p.getY() < 0 || p.getY() >= side;
+  object.setPosition(p - v);
+  object.setVelocity({left_x ? -v.getX() : v.getX(), left_y ? -v.getY() : v.getY()});
+}
+
 }  // namespace bench

@@ -12,7 +12,6 @@
 #include "ResultLine.h"
 #include "Scene.h"
 #include "Suite.h"
-#include "engine/events/EventOut.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/Object.h"
@@ -213,30 +212,22 @@ enum class Kind {
 struct Crowd {
   Kind kind;
   double side;
-  std::uint64_t events = 0;
+  Tally tally{};
   std::uint64_t until_spawn = kSpawnEvery;
   naiad::SplitMix64 random{7};
 };
 
-class Citizen : public df::Object {
+class Citizen : public Ball {
  public:
-  Citizen(const Body& body, Crowd& crowd) : m_crowd(crowd) {
-    setType("Citizen");
-    setSolidness(body.solidness);
-    setPosition(df::Vector(body.x, body.y));
-    setVelocity(df::Vector(body.vx, body.vy));
-  }
+  Citizen(const Body& body, Crowd& crowd) : Ball(body, 0, crowd.side, crowd.tally), m_crowd(crowd) {}
 
   int eventHandler(const df::Event* p_e) override {
-    if (p_e->getType() == df::COLLISION_EVENT) return hit();
-    if (p_e->getType() != df::OUT_EVENT) return 0;
-    turnBack(*this, m_crowd.side);
-    return 1;
+    return p_e->getType() == df::COLLISION_EVENT ? hit() : Ball::eventHandler(p_e);
   }
 
  private:
   int hit() {
-    ++m_crowd.events;
+    ++m_crowd.tally.events;
     if (m_crowd.kind == Kind::VELOCITY) {
       const df::Vector v = getVelocity();
       setVelocity(df::Vector(-v.x(), -v.y()));
@@ -287,11 +278,11 @@ void measure(Kind kind, const Options& options) {
   std::vector<double> per_object;
   std::vector<double> events;
   for (int repetition = 0; repetition < (options.quick ? 3 : 9); ++repetition) {
-    const std::uint64_t before = crowd.events;
+    const std::uint64_t before = crowd.tally.events;
     const double begin = cpuNanoseconds();
     for (int i = 0; i < ticks; ++i) WM.update();
     const double time = cpuNanoseconds() - begin;
-    events.push_back(static_cast<double>(crowd.events - before) / ticks);
+    events.push_back(static_cast<double>(crowd.tally.events - before) / ticks);
     per_event.push_back(time / ticks / events.back());
     per_object.push_back(time / ticks / kObjects);
   }

@@ -119,7 +119,7 @@ class ObjectList {
  public:
   ObjectList();
   ObjectList(const ObjectList& other);
-  ObjectList& operator=(const ObjectList& other);
+  ObjectList& operator=(const ObjectList& other) = delete;
   ~ObjectList();
 
   // Insert object pointer in list. Return 0 if ok, else -1.

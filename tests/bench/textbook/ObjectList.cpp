@@ -11,18 +11,8 @@ ObjectList::ObjectList() {
   m_p_obj = nullptr;
 }
 
-ObjectList::ObjectList(const ObjectList& other) {
-  m_count = 0;
-  m_max_count = 0;
-  m_p_obj = nullptr;
+ObjectList::ObjectList(const ObjectList& other) : ObjectList() {
   for (int i = 0; i < other.m_count; i++) insert(other.m_p_obj[i]);
-}
-
-ObjectList& ObjectList::operator=(const ObjectList& other) {
-  if (this == &other) return *this;
-  clear();
-  for (int i = 0; i < other.m_count; i++) insert(other.m_p_obj[i]);
-  return *this;
 }
 
 ObjectList::~ObjectList() {

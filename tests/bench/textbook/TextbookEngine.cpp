@@ -19,8 +19,9 @@ class Ball : public Object {
 
   int eventHandler(const Event* p_e) override {
     if (p_e->getType() == COLLISION_EVENT) return hit(static_cast<const EventCollision*>(p_e));
-    if (p_e->getType() == OUT_EVENT) return out();
-    return 0;
+    if (p_e->getType() != OUT_EVENT) return 0;
+    bench::turnBack(*this, m_side);
+    return 1;
   }
 
  private:
@@ -33,16 +34,6 @@ class Ball : public Object {
     ++m_tally.blocked;
     const Vector v = getVelocity();
     setVelocity(Vector(-v.getX(), -v.getY()));
-    return 1;
-  }
-
-  int out() {
-    const Vector p = getPosition();
-    const Vector v = getVelocity();
-    const bool left_x = p.getX() < 0 || p.getX() >= m_side;
-    const bool left_y = p.getY() < 0 || p.getY() >= m_side;
-    setPosition(p - v);
-    setVelocity(Vector(left_x ? -v.getX() : v.getX(), left_y ? -v.getY() : v.getY()));
     return 1;
   }
 
