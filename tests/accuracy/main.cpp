@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "Guarded.h"
 #include "Measurement.h"
 #include "Records.h"
 #include "ResultLine.h"
@@ -211,13 +211,10 @@ int main(int argc, char** argv) {
   }
   Options options;
   if (!read(arguments, options)) return usage(stderr, 2);
-  try {
+  return bench::guarded("naiad_lab", [&] {
     bench::reserveStdout();
     lab::Records records(options.output, options.runs);
     run(options, records);
     return records.allMet() ? 0 : 1;
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "naiad_lab: %s\n", e.what());
-    return 1;
-  }
+  });
 }

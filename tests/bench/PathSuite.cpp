@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "Percentile.h"
 #include "ResultLine.h"
 #include "Suite.h"
 #include "Worker.h"
 #include "path/Peers.h"
-#include "path/judge/Quantile.h"
 #include "tests/support/TempFolder.h"
 
 namespace bench {
@@ -141,7 +141,7 @@ Figures medians(const std::string& program, const Condition& condition, const Ef
     for (const auto& [key, value] : run.get()) samples[key].push_back(value);
   }
   Figures result;
-  for (const auto& [key, values] : samples) result[key] = path::quantile(values, 0.5);
+  for (const auto& [key, values] : samples) result[key] = quantile(values, 0.5);
   return result;
 }
 

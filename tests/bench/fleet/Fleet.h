@@ -47,10 +47,8 @@ class Fleet {
       await("dfserver", [&] { return (server.port = portIn(server.folder / "port")) != 0; });
     }
     const auto listed = [this] {
-      const std::string list = naiad::test::contentOf(m_folder / "servers.json");
-      std::size_t count = 0;
-      for (std::size_t at = 0; (at = list.find("\"link\"", at)) != std::string::npos; ++at) ++count;
-      return count == m_servers.size();
+      const int count = naiad::test::countIn(naiad::test::contentOf(m_folder / "servers.json"), "\"link\"");
+      return count == static_cast<int>(m_servers.size());
     };
     await("a server on the bus", listed);
   }

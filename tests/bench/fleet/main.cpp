@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <random>
 #include <string>
 #include <thread>
@@ -14,6 +13,7 @@
 #include "Crowd.h"
 #include "Fleet.h"
 #include "shared/program/ProcessSetup.h"
+#include "tests/bench/Guarded.h"
 #include "tests/bench/Percentile.h"
 
 namespace {
@@ -145,11 +145,7 @@ int main(int argc, char** argv) {
   setup.max_players = setup.bots / setup.servers * 4 / 3 + 4;
   naiad::ignoreBrokenPipes();
   naiad::raiseOpenFileLimit(static_cast<std::size_t>(4 * setup.bots + 256));
-  try {
+  return bench::guarded("naiad_fleet", [&] {
     return run(setup, std::atoi(words[1].c_str()), std::chrono::seconds(std::atoi(words[2].c_str())));
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "naiad_fleet: %s\n", error.what());
-    std::printf("fleet bots=%d failed=1\n", setup.bots);
-    return 1;
-  }
+  });
 }

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "Worker.h"
+#include "tests/support/Text.h"
 
 namespace bench::path {
 
@@ -53,13 +54,6 @@ inline void writeFile(const std::string& name, const std::string& text) {
   if (!(file << text << std::flush)) throw std::runtime_error(name + " cannot be written");
 }
 
-inline std::string readFile(const std::string& name) {
-  std::ifstream file(name);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 inline void append(Words& words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
 }
@@ -88,7 +82,7 @@ inline void makeSshKeys(const Place& place, const std::string& host_key) {
   makeKey(host_key);
   makeKey(place.file("user_key"));
   writeFile(place.file("known_hosts"),
-            "[" + place.address + "]:" + kSshPort + " " + readFile(host_key + ".pub"));
+            "[" + place.address + "]:" + kSshPort + " " + naiad::test::contentOf(host_key + ".pub"));
 }
 
 /// Returns the command of this user's own sshd, with keys that exist only during the run.

@@ -18,6 +18,7 @@
 #include "shared/values/SplitMix64.h"
 #include "tests/bench/Guarded.h"
 #include "tests/bench/Percentile.h"
+#include "tests/support/Text.h"
 
 namespace {
 
@@ -25,6 +26,7 @@ using Clock = std::chrono::steady_clock;
 using bench::percentile;
 using naiad::ClientSession;
 using naiad::Connection;
+using naiad::test::countIn;
 using Millis = std::chrono::duration<double, std::milli>;
 
 constexpr int kRooms = 16;
@@ -166,16 +168,11 @@ class Run {
         "hung=%d failed=%d\n",
         kRooms, gaps.size(), percentile(gaps, 50), percentile(gaps, 99), worst_p99, frames,
         percentile(gaps, 100), m_moves.size(), percentile(m_moves, 50), percentile(m_moves, 99),
-        count(log, "crashed (SIGABRT)"), count(log, "did not answer"), good ? 0 : 1);
+        countIn(log, "crashed (SIGABRT)"), countIn(log, "did not answer"), good ? 0 : 1);
     return good ? 0 : 1;
   }
 
  private:
-  static int count(const std::string& text, const std::string& part) {
-    int found = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-    return found;
-  }
   void join(const std::string& name, const std::string& room) {
     m_players.push_back(std::make_unique<Player>(m_context, m_server->port(), m_home.player(name), room));
   }

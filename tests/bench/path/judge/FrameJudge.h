@@ -11,7 +11,7 @@
 #include "../Monotonic.h"
 #include "../scene/Status.h"
 #include "../scene/Truth.h"
-#include "Quantile.h"
+#include "tests/bench/Percentile.h"
 
 namespace bench::path {
 

@@ -12,13 +12,14 @@
 #include "../SharedFile.h"
 #include "../link/Link.h"
 #include "../scene/Truth.h"
-#include "Quantile.h"
 #include "Watch.h"
 #include "tests/bench/Guarded.h"
+#include "tests/bench/Percentile.h"
 
 namespace {
 
 using namespace bench::path;
+using bench::quantile;
 
 constexpr Nanoseconds kStarts{30'000'000'000};  // timeout for the first frame
 constexpr Nanoseconds kDrain{3'000'000'000};    // time in which the last keys may still appear

@@ -18,15 +18,14 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "../SharedFile.h"
 #include "Namespace.h"
 #include "tests/bench/Guarded.h"
+#include "tests/support/Text.h"
 
 namespace {
 
@@ -74,12 +73,6 @@ bool isThere(const std::string& file) {
   return file.empty() || access(file.c_str(), F_OK) == 0;
 }
 
-std::string textOf(const std::string& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
 int carry(const Options& options) {
   const NetworkNamespace client_network(options.client_address, options.server_address);
   const NetworkNamespace server_network(options.server_address, options.client_address);
@@ -94,7 +87,7 @@ int carry(const Options& options) {
     // Success is not a failure here, because the command may have left a server in the background.
     const bool failed = reap(server).value_or(0) != 0;
     if (failed || monotonicNow() > late) {
-      throw std::runtime_error("the server did not start: " + textOf(options.server_log));
+      throw std::runtime_error("the server did not start: " + naiad::test::contentOf(options.server_log));
     }
     link.run(kRound);
   }
