@@ -1,10 +1,5 @@
 // The cost to a scene of layers that it does not use, by counts that other programs cannot disturb:
-// valgrind's count of instructions, and the heap's of allocations.
-//
-// layer=motion, motion_hard: only motion, in this build and in one without layers (-DNAIAD_LAYERS=OFF). Other
-// layers: the everyday workload of HARD boxes, in which an Object far from all others uses the layer or does
-// not; bytes_extra and allocations_per_tick are for a world in which all Objects use it. layer=sprite, wall:
-// the far Object, or sixteen scattered ones (who=sixteen), are larger than a character.
+// valgrind's count of instructions, and the heap's of allocations. docs/bench.md describes the layers.
 #include <filesystem>
 #include <stdexcept>
 #include <string>

@@ -103,9 +103,7 @@ void measure(const Scene& scene, bool quick) {
   const int players = scene.all ? 2 : 16;
   BusyScene world(scene.kind, scene.all ? kBusyWidth : 80, scene.all ? kBusyHeight : 24, players);
   VirtualClock clock;
-  LinkConditions link;
-  link.delay = 50ms;
-  link.loss = scene.loss;
+  const LinkConditions link{.delay = 50ms, .loss = scene.loss};
   Publisher publisher;
   std::vector<std::unique_ptr<Client>> clients;
   for (int i = 0; i < players; ++i) {
@@ -147,11 +145,7 @@ void measure(const Scene& scene, bool quick) {
       .add("packets_per_s", sum.packets / client_seconds)
       .add("encode_us", sum.encode_us / (client_seconds * 30))
       .add("publish_us", std::chrono::duration<double, std::micro>(publish).count() / (seconds * 30));
-  if (scene.loss == 0) {
-    line.addZero("wrong_cells", wrong);
-  } else {
-    line.add("wrong_cells", wrong);
-  }
+  scene.loss == 0 ? line.addZero("wrong_cells", wrong) : line.add("wrong_cells", wrong);
 }
 
 const Suite s_snapshot(
@@ -171,13 +165,9 @@ const Suite s_snapshot(
     });
 
 // screen: share of a player's picture that differs from the server's at an equal instant, and the cost in
-// bytes and processor time, for several network conditions.
-//
-// The 1000-object world in an 80 by 24 view, over a line in virtual time. At 1000 random instants the
-// client's picture is compared with the truth of the server's newest tick, over the cells that are not blank
-// in at least one of the two. `floor_percent`: the result for a client that knows the exact state of the
-// newest tick that could have arrived, and extrapolates from it. `still_percent`: the result for a client
-// that shows that tick unchanged. `ahead`: 1 if the picture is drawn ahead by the snapshots' delay.
+// bytes and processor time, for several network conditions. The 1000-object world in an 80 by 24 view, over a
+// line in virtual time. At 1000 random instants the client's picture is compared with the truth of the
+// server's newest tick. docs/bench.md explains the keys.
 
 /// Share of different cells, among the cells that are not blank in at least one of the two pictures.
 struct Share {
@@ -210,9 +200,7 @@ void measure(const Case& c, bool quick) {
   const int instants = quick ? 100 : 1000;
   BusyScene scene(BusyScene::Kind::kBusy, 80, 24, kPlayers);
   VirtualClock clock;
-  LinkConditions link;
-  link.delay = c.round_trip / 2;
-  link.loss = c.loss;
+  const LinkConditions link{.delay = c.round_trip / 2, .loss = c.loss};
   Publisher publisher;
   std::vector<std::unique_ptr<LinkedClient>> clients;
   for (int i = 0; i < kPlayers; ++i) {
@@ -357,8 +345,7 @@ Cost costOfPlayers(const GameModule& game, int ticks) {
   Cost cost;
   const Stage stage(game, [&](df::World& world) {
     VirtualClock clock;
-    LinkConditions link;
-    link.delay = 50ms;
+    const LinkConditions link{.delay = 50ms};
     Publisher publisher;
     RandomPlayers players(world, kSeed, kPlayers);
     std::map<std::uint32_t, std::unique_ptr<LinkedClient>> clients;
@@ -369,10 +356,8 @@ Cost costOfPlayers(const GameModule& game, int ticks) {
       world.tick();
       publisher.update(world.picture().view());
       cost.microseconds += (cpuNanoseconds() - begin) / 1e3;
-      std::map<std::uint32_t, std::unique_ptr<LinkedClient>> here;
       for (const df::PlayerFacts& facts : world.picture().view().players) {
-        std::unique_ptr<LinkedClient>& p_client = here[facts.id];
-        p_client = std::move(clients[facts.id]);
+        std::unique_ptr<LinkedClient>& p_client = clients[facts.id];
         if (p_client == nullptr)
           p_client = std::make_unique<LinkedClient>(clock, link, facts.id, Resend::kOnGap);
         p_client->tick(publisher, facts);
@@ -380,7 +365,6 @@ Cost costOfPlayers(const GameModule& game, int ticks) {
         cost.player_ticks += 1;
         p_client->resetFigures();
       }
-      clients = std::move(here);
       clock.advanceBy(kTickLength);
     }
   });

@@ -107,18 +107,8 @@ class BusyWalker : public df::Object {
   df::Color m_color = df::WHITE;
 };
 
-/// The centre of a player's view.
-class Eye : public df::Object {
- public:
-  Eye(int x, int y) {
-    setType("Eye");
-    setSolidness(df::SPECTRAL);
-    setVisible(false);
-    setPosition(df::Vector(x, y));
-  }
-};
-
-/// Gives each player an Eye at a part of the world.
+/// Gives each player an invisible Object in the middle of a part of the world, which is the centre of the
+/// view.
 class Usher : public df::Object {
  public:
   Usher() {
@@ -135,8 +125,12 @@ class Usher : public df::Object {
     const int columns = std::max(1, kBusyWidth / width);
     const int rows = std::max(1, kBusyHeight / height);
     const int part = m_count++ % (columns * rows);
-    WM.getPlayer(p_join->getPlayer())
-        ->setObject(new Eye(width / 2 + width * (part % columns), height / 2 + height * (part / columns)));
+    auto* p_eye = new df::Object;
+    p_eye->setSolidness(df::SPECTRAL);
+    p_eye->setVisible(false);
+    p_eye->setPosition(
+        df::Vector(width / 2 + width * (part % columns), height / 2 + height * (part / columns)));
+    WM.getPlayer(p_join->getPlayer())->setObject(p_eye);
     return 1;
   }
 
