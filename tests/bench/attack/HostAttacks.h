@@ -1,7 +1,6 @@
 // Attacks on what a host leaves open by default: rounds on disk, the ssh door, the bus.
 #pragma once
 
-#include <signal.h>
 #include <sys/stat.h>
 
 #include <algorithm>

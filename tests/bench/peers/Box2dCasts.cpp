@@ -1,7 +1,6 @@
 #include <box2d/b2_dynamic_tree.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "Casts.h"
 

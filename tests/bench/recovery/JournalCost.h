@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "host/journal/DeterminismCheck.h"
 #include "host/journal/JournalWriter.h"

@@ -9,7 +9,6 @@
 //   sink      receive datagrams without answering; write   sunk
 //             their sizes to FOLDER/sizes and the bots' addresses to FOLDER/endpoints
 #include <sys/epoll.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>

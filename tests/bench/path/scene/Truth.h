@@ -4,9 +4,7 @@
 
 #include <array>
 #include <atomic>
-#include <cstddef>
 #include <cstdint>
-#include <optional>
 
 #include "../Monotonic.h"
 #include "Picture.h"

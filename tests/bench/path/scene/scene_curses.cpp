@@ -10,8 +10,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
-#include <string>
 
 #include "../../Guarded.h"
 #include "../Monotonic.h"
