@@ -19,16 +19,7 @@ namespace {
 constexpr const char* kUsage =
     "usage: naiad_lab [--quick] [--method NAME]... [--substeps N]... [--runs N] [--output DIR] [PROBLEM...]\n"
     "       naiad_lab --list\n"
-    "\n"
-    "  PROBLEM        a number or a name (default: all)\n"
-    "  --quick        only 1, 4 and 16 sub-steps, and no long runs, to check that the problems work\n"
-    "  --method NAME  only this method; may be repeated\n"
-    "  --substeps N   only this many sub-steps per tick; may be repeated\n"
-    "  --runs N       timed runs of each point, 2 or more (default: 5; 3 with thousands of bodies)\n"
-    "  --output DIR   folder for points.csv and problems.json (default: none are written)\n"
-    "  --list         list the problems and methods\n"
-    "\n"
-    "Exit codes: 0 measured, 1 the product missed a target, or something failed, 2 wrong usage.\n";
+    "deploy/lab --help explains the arguments and the exit codes. Without --output, no files are written.\n";
 
 constexpr int kRuns = 5;
 constexpr int kFewestRuns = 2;

@@ -71,12 +71,7 @@ namespace {
 constexpr const char* kUsage =
     "usage: naiad_bench [--quick] [SUITE...]\n"
     "       naiad_bench --list\n"
-    "\n"
-    "  SUITE    suite to run (default: all)\n"
-    "  --quick  run only small worlds, to check that the suites work\n"
-    "  --list   list the suites\n"
-    "\n"
-    "Exit codes: 0 measured, 1 engines disagree, are wrong, or a suite failed, 2 wrong usage.\n";
+    "deploy/bench --help explains the arguments and the exit codes.\n";
 
 int usage(std::FILE* out, int code) {
   std::fputs(kUsage, out);
