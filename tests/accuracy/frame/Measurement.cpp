@@ -17,6 +17,7 @@
 #include <stdexcept>
 
 #include "ElapsedTime.h"
+#include "Percentile.h"
 
 namespace lab {
 namespace {
@@ -68,11 +69,6 @@ TickTimes timeTicks(const Case& its_case, const Method& method, int substeps) {
   return times;
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 // Takes each tick's minimum over all runs: their work is equal, and a busy machine only adds time.
 void judgeTicks(const std::vector<TickTimes>& runs, CpuTime& cpu) {
   const std::vector<double>& allowed = runs[0].allowed;
@@ -81,7 +77,7 @@ void judgeTicks(const std::vector<TickTimes>& runs, CpuTime& cpu) {
     for (std::size_t i = 0; i < us.size(); ++i) us[i] = std::min(us[i], run.us[i]);
   }
   cpu.worst = *std::max_element(us.begin(), us.end());
-  if (us.size() > 1) cpu.first_part = us[0] / median({us.begin() + 1, us.end()});
+  if (us.size() > 1) cpu.first_part = us[0] / bench::percentile<double>({us.begin() + 1, us.end()}, 50);
   if (allowed.empty()) return;
   cpu.worst_part = 0;
   for (std::size_t i = 0; i < us.size(); ++i) cpu.worst_part = std::max(cpu.worst_part, us[i] / allowed[i]);
@@ -98,9 +94,9 @@ CpuTime timeRuns(const Case& its_case, const Method& method, int substeps, int r
     const int copies = std::clamp(static_cast<int>(kShortestRunNs / std::max(first, 1.0)), 1, kMaxCopies);
     for (int i = 0; i < runs; ++i) totals.push_back(runNs(its_case, method, substeps, copies) * 1e-3);
   }
-  std::sort(totals.begin(), totals.end());
   const double ticks = its_case.scene.ticks;
-  CpuTime cpu{totals[totals.size() / 2] / ticks, totals.front() / ticks, totals.back() / ticks};
+  CpuTime cpu{bench::percentile(totals, 50) / ticks, bench::percentile(totals, 0) / ticks,
+              bench::percentile(totals, 100) / ticks};
   judgeTicks(by_tick, cpu);
   return cpu;
 }
