@@ -50,10 +50,8 @@ TEST(Stiff, VanDerPolMatchesThePublishedResult) {
       for (const int ticks : {2, 60, 240}) {
         VanDerPol field;
         field.knows_jacobian = knows;
-        IntegratorOptions options;
-        options.method = method;
         Flyer its = {{2, 0}, {}};
-        for (int i = 0; i < ticks; ++i) its.fly(field, 2.0 * i / ticks, 2.0 / ticks, options);
+        for (int i = 0; i < ticks; ++i) its.fly(field, 2.0 * i / ticks, 2.0 / ticks, {.method = method});
         EXPECT_NEAR(its.p.x, 1.706167732170483, 1e-4);
         EXPECT_NEAR(its.v.x, -0.8928097010247975, 1e-4);
         EXPECT_EQ(its.counters.failed_calls, 0);
@@ -227,11 +225,8 @@ void expectEnd(const System& system, double end, StateVector<N> y, const Integra
 }
 
 TEST(Stiff, RobertsonIsAccurateOverElevenDecades) {
-  IntegratorOptions options;
-  options.method = IntegratorMethod::kRadau;
-  options.stiff_relative = 1e-9;
-  options.stiff_absolute = 1e-18;
-  expectEnd<3>(Robertson{}, 1e11, {1, 0, 0}, options,
+  expectEnd<3>(Robertson{}, 1e11, {1, 0, 0},
+               {.method = IntegratorMethod::kRadau, .stiff_relative = 1e-9, .stiff_absolute = 1e-18},
                {0.2083340149701255e-7, 0.8333360770334713e-13, 0.9999999791665050}, 1e-6);
 }
 
@@ -251,9 +246,7 @@ struct Hires {
 
 TEST(Stiff, HiresMatchesThePublishedResult) {
   for (const IntegratorMethod method : {IntegratorMethod::kRadau, IntegratorMethod::kAutomatic}) {
-    IntegratorOptions options;
-    options.method = method;
-    expectEnd<8>(Hires{}, 321.8122, {1, 0, 0, 0, 0, 0, 0, 0.0057}, options,
+    expectEnd<8>(Hires{}, 321.8122, {1, 0, 0, 0, 0, 0, 0, 0.0057}, {.method = method},
                  {0.7371312573325668e-3, 0.1442485726316185e-3, 0.5888729740967575e-4, 0.1175651343283149e-2,
                   0.2386356198831331e-2, 0.6238968252742796e-2, 0.2849998395185769e-2, 0.2850001604814231e-2},
                  1e-5);
@@ -261,10 +254,8 @@ TEST(Stiff, HiresMatchesThePublishedResult) {
 }
 
 TEST(Stiff, StopsAtItsLimitsAndReportsIt) {
-  VanDerPol field;
-  IntegratorOptions options;
-  options.max_evaluations = 500;
-  options.max_steps = 3;
+  const VanDerPol field;
+  IntegratorOptions options = {.max_evaluations = 500, .max_steps = 3};
   IntegratorCounters counters;
   Flown flown;
   EXPECT_EQ(flyField(field, {2, 0}, {0, 0}, 0, 1, options, flown, counters), IntegratorStatus::kDone);
@@ -288,9 +279,8 @@ TEST(Stiff, ProblemsBeyondTheLimitsAreSolvedCoarsely) {
   for (double k = 1; k < 2e12; k *= 100) {
     field.stiffness = k;
     for (const int most : {1, 8000}) {
-      IntegratorOptions options;
-      options.max_evaluations = most;
-      options.max_steps = most == 1 ? 16 : options.max_steps;
+      const IntegratorOptions options = {.max_evaluations = most,
+                                         .max_steps = most == 1 ? 16 : IntegratorOptions().max_steps};
       Flyer its = {{1, 0}, {0.1, 0.2}};
       const auto energy = [&] {
         const double square = lengthSquared(its.p);
@@ -330,8 +320,7 @@ TEST(Flight, AllocatesNothing) {
   flown = flySpring({}, flown.velocity, {0, 1}, {0, 0.3}, 1);
   is_done &= flyQuadraticDrag({1, 2}, {0, 1}, 0.1, 1, flown, counters) == IntegratorStatus::kDone;
   for (int method = 0; method <= static_cast<int>(IntegratorMethod::kRadau); ++method) {
-    IntegratorOptions options;
-    options.method = static_cast<IntegratorMethod>(method);
+    const IntegratorOptions options = {.method = static_cast<IntegratorMethod>(method)};
     is_done &= flyField(soft, {1, 0.5}, {}, 0, 1, options, flown, counters) == IntegratorStatus::kDone;
   }
   is_done &= flyField(stiff, {1, 0}, {}, 0, 0.1, {}, flown, counters) == IntegratorStatus::kDone;

@@ -61,8 +61,7 @@ TEST(Integrator, KeplerReturnsToItsStartAfterTwentyOrbits) {
 TEST(Integrator, KeplerErrorFollowsTheTolerance) {
   for (const IntegratorMethod method : {IntegratorMethod::kExtrapolation, IntegratorMethod::kRadau}) {
     for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12}) {
-      IntegratorOptions options;
-      options.method = method;
+      IntegratorOptions options = {.method = method};
       options.relative = options.absolute = options.stiff_relative = options.stiff_absolute = tolerance;
       const OrbitResult r = orbit(options, 1);
       std::printf(
@@ -79,8 +78,7 @@ TEST(Integrator, FieldGetsTheWorldsTime) {
     Vec2 acceleration(Vec2, Vec2, double t) const override { return {df::math::cos(t), 0}; }
   } field;
   for (const IntegratorMethod method : {IntegratorMethod::kAutomatic, IntegratorMethod::kRadau}) {
-    IntegratorOptions options;
-    options.method = method;
+    const IntegratorOptions options = {.method = method};
     IntegratorCounters counters;
     Flown flown;
     ASSERT_EQ(flyField(field, {}, {}, 5, 1, options, flown, counters), IntegratorStatus::kDone);
@@ -96,8 +94,7 @@ TEST(Integrator, HandlesAJumpOfTheForce) {
   } field;
   for (const IntegratorMethod method :
        {IntegratorMethod::kAutomatic, IntegratorMethod::kExtrapolation, IntegratorMethod::kRadau}) {
-    IntegratorOptions options;
-    options.method = method;
+    const IntegratorOptions options = {.method = method};
     IntegratorCounters counters;
     for (int i = 0; i < 500; ++i) {
       field.border = (i + 0.5) / 500;
@@ -120,8 +117,7 @@ TEST(Integrator, NonFiniteForcesFailAndSingularitiesStop) {
   } blow;
   for (const IntegratorMethod method :
        {IntegratorMethod::kAutomatic, IntegratorMethod::kExtrapolation, IntegratorMethod::kRadau}) {
-    IntegratorOptions options;
-    options.method = method;
+    const IntegratorOptions options = {.method = method};
     IntegratorCounters counters;
     Flown flown;
     EXPECT_EQ(flyField(broken, {-1, 0}, {}, 0, 1, options, flown, counters), IntegratorStatus::kNotFinite);

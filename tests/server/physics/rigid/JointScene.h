@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "physics/rigid/RigidWorld.h"
+#include "tests/server/physics/Joints.h"
 #include "tests/server/physics/SceneRandom.h"
 
 namespace naiad::physics::test {
@@ -16,11 +17,7 @@ inline constexpr double kTick = 1.0 / 30;
 inline constexpr Vec2 kDown = {0, 10};  // gravity in cells per second²
 
 struct JointScene {
-  RigidWorld world{[] {
-    RigidOptions options;
-    options.may_sleep = false;
-    return options;
-  }()};
+  RigidWorld world{RigidOptions{.may_sleep = false}};
   std::vector<int> joints;
 
   int point(Vec2 place, double inverse_mass = 1) {
@@ -52,21 +49,12 @@ struct JointScene {
     joints.push_back(world.addJoint(joint));
     return joints.back();
   }
-  static Joint joint(JointKind kind, int a, int b, double length = 0) {
-    Joint joint;
-    joint.kind = kind;
-    joint.a = a;
-    joint.b = b;
-    joint.length = length;
-    return joint;
+  int join(JointKind kind, int a, int b, double length = 0) {
+    return join(jointOf(kind, a, b, {.length = length}));
   }
-  int join(JointKind kind, int a, int b, double length = 0) { return join(joint(kind, a, b, length)); }
   /// Joins two bodies, which must not be rotated, with both anchors at this point of the world.
   Joint jointAt(JointKind kind, int a, int b, Vec2 where) const {
-    Joint made = joint(kind, a, b);
-    made.anchor_a = placeAt(where) - body(a).place;
-    made.anchor_b = placeAt(where) - body(b).place;
-    return made;
+    return jointOf(kind, a, b, {}, placeAt(where) - body(a).place, placeAt(where) - body(b).place);
   }
   int joinAt(JointKind kind, int a, int b, Vec2 where) { return join(jointAt(kind, a, b, where)); }
   void step(Vec2 gravity) {

@@ -52,13 +52,8 @@ class Scene {
     return m_world.add(body, shape);
   }
   void join(JointKind kind, int a, int b) {
-    Joint joint;
-    joint.kind = kind;
-    joint.a = a, joint.b = b;
-    if (kind == JointKind::kHinge) joint.anchor_a = {0.6, 0}, joint.anchor_b = {-0.6, 0};
-    joint.length = 1.3;
-    joint.stiffness = 0.1;
-    EXPECT_GE(m_world.addJoint(joint), 0);
+    const Vec2 arm = {kind == JointKind::kHinge ? 0.6 : 0, 0};
+    EXPECT_GE(m_world.addJoint(jointOf(kind, a, b, {.length = 1.3, .stiffness = 0.1}, arm, -arm)), 0);
   }
   // Adds a stack, two pairs that fall onto the floor, a row of crates that falls asleep, and a bullet shot at
   // them.

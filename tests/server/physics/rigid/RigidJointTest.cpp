@@ -6,6 +6,7 @@
 namespace naiad::physics {
 namespace {
 
+using test::jointOf;
 using test::JointScene;
 using test::kDown;
 using test::kTick;
@@ -31,8 +32,7 @@ TEST(RigidJoint, WeldMakesOneBodyOfTwo) {
 TEST(RigidJoint, SliderAllowsOneDirectionAndNoRotation) {
   JointScene scene = test::nailed();
   scene.rigid({0, 0}, 1, 1);
-  Joint slider = JointScene::joint(JointKind::kSlider, 0, 1);
-  slider.axis = {0.8, 0.6};
+  const Joint slider = jointOf(JointKind::kSlider, 0, 1, {.axis = {0.8, 0.6}});
   scene.join(slider);
   for (int i = 0; i < 60; ++i) {
     scene.change(1).torque = 3 * kTick * kTick;
@@ -49,10 +49,7 @@ TEST(RigidJoint, MotorReachesItsSpeedWithItsTorque) {
   JointScene scene = test::nailed();
   scene.rigid({0, 0}, 1, 2);
   scene.join(JointKind::kHinge, 0, 1);
-  Joint motor = JointScene::joint(JointKind::kMotor, 0, 1);
-  motor.speed = 5 * kTick;
-  motor.max_force = 4 * kTick * kTick;
-  scene.join(motor);
+  scene.join(jointOf(JointKind::kMotor, 0, 1, {.speed = 5 * kTick, .max_force = 4 * kTick * kTick}));
   for (int i = 0; i < 30; ++i) scene.step({});
   EXPECT_NEAR(scene.spin(1), 2, 1e-9);  // torque / inertia · time
   for (int i = 0; i < 60; ++i) scene.step({});
@@ -63,10 +60,7 @@ TEST(RigidJoint, AngleLimitsStopBothWays) {
   JointScene scene = test::nailed();
   scene.rigid({1, 0}, 1, 0.1);
   scene.joinAt(JointKind::kHinge, 0, 1, {0, 0});
-  Joint limit = JointScene::joint(JointKind::kAngleLimit, 0, 1);
-  limit.lower = -0.5;
-  limit.upper = 0.7;
-  scene.join(limit);
+  scene.join(jointOf(JointKind::kAngleLimit, 0, 1, {.lower = -0.5, .upper = 0.7}));
   for (int i = 0; i < 90; ++i) {
     scene.step(kDown);
     ASSERT_LE(scene.angle(1), 0.7 + 1e-9);
@@ -90,10 +84,8 @@ TEST(RigidJoint, SpringFollowsTheDampedCosine) {
   for (const auto& its : kCases) {
     JointScene scene = test::nailed();
     scene.point({3, 0});
-    Joint spring = JointScene::joint(JointKind::kSpring, 0, 1, 2);
-    spring.stiffness = its.stiffness * kTick * kTick;
-    spring.damping = its.damping * kTick;
-    scene.join(spring);
+    const double stiffness = its.stiffness * kTick * kTick, damping = its.damping * kTick;
+    scene.join(jointOf(JointKind::kSpring, 0, 1, {.length = 2, .stiffness = stiffness, .damping = damping}));
     const double decay = its.damping / 2, w = std::sqrt(its.stiffness - decay * decay);
     double worst = 0;
     for (int i = 1; i <= its.ticks; ++i) {
@@ -114,10 +106,9 @@ TEST(RigidJoint, SpringEnergyStaysBoundedAtAnyStiffness) {
         scene.point({1.1, 0});
         scene.point({2.1, 0}, 0.01);
         for (int i = 0; i < 2; ++i) {
-          Joint spring = JointScene::joint(JointKind::kSpring, i, i + 1, rest);
-          spring.stiffness = stiffness * kTick * kTick;
-          spring.damping = damping * kTick;
-          scene.join(spring);
+          const double k = stiffness * kTick * kTick;
+          scene.join(jointOf(JointKind::kSpring, i, i + 1,
+                             {.length = rest, .stiffness = k, .damping = damping * kTick}));
         }
         const double most = 0.5 * stiffness * (rest > 0 ? 0.01 : 1.1 * 1.1 + 1) + 4000 + 1e6 / stiffness;
         for (int i = 0; i < 300; ++i) {
@@ -133,11 +124,10 @@ TEST(RigidJoint, SpringEnergyStaysBoundedAtAnyStiffness) {
 TEST(RigidJoint, MouseDragsWithAtMostItsForce) {
   JointScene scene;
   scene.point({0, 0}, 0.5);
-  Joint mouse = JointScene::joint(JointKind::kMouse, -1, 0);
+  const double stiffness = 100 * kTick * kTick, damping = 30 * kTick, force = 6 * kTick * kTick;
+  Joint mouse =
+      jointOf(JointKind::kMouse, -1, 0, {.stiffness = stiffness, .damping = damping, .max_force = force});
   mouse.target = placeAt({4, 0});
-  mouse.stiffness = 100 * kTick * kTick;
-  mouse.damping = 30 * kTick;
-  mouse.max_force = 6 * kTick * kTick;
   const int id = scene.join(mouse);
   for (int i = 0; i < 15; ++i) scene.step({});
   EXPECT_NEAR(scene.velocity(0).x, 1.5, 1e-9);  // 3 · ½
@@ -153,9 +143,7 @@ TEST(RigidJoint, MouseDragsWithAtMostItsForce) {
 TEST(RigidJoint, JointForceIsTheWeightAndOverloadBreaks) {
   JointScene scene = test::nailed();
   scene.point({0, 1}, 0.5);
-  Joint upper = JointScene::joint(JointKind::kDistance, 0, 1, 1);
-  upper.break_force = 25 * kTick * kTick;
-  scene.join(upper);
+  scene.join(jointOf(JointKind::kDistance, 0, 1, {.length = 1, .break_force = 25 * kTick * kTick}));
   scene.point({0, 2}, 1 / 0.4);
   scene.join(JointKind::kDistance, 1, 2, 1);
   for (int i = 0; i < 10; ++i) scene.step(kDown);
@@ -188,7 +176,7 @@ TEST(RigidJoint, InvalidJointsAreRefused) {
   const auto refused = [](const auto& change) {
     JointScene scene = test::nailed();
     scene.point({1, 0});
-    Joint joint = JointScene::joint(JointKind::kDistance, 0, 1, 1);
+    Joint joint = jointOf(JointKind::kDistance, 0, 1, {.length = 1});
     change(joint);
     return scene.join(joint) == -1;
   };

@@ -7,6 +7,7 @@
 namespace naiad::physics {
 namespace {
 
+using test::jointOf;
 using test::JointScene;
 using test::kDown;
 using test::kTick;
@@ -36,10 +37,8 @@ JointScene randomTree(SceneRandom& random, int count, bool is_free, bool is_boun
     } else if (choice < 0.9) {
       scene.joinAt(JointKind::kWeld, parent, child, scene.at(parent) + 0.5 * displacement);
     } else {
-      Joint slider = JointScene::joint(JointKind::kSlider, parent, child);
-      slider.axis = {0.6, 0.8};
-      slider.anchor_a = scene.at(child) - scene.at(parent);
-      scene.join(slider);
+      const Vec2 on_parent = scene.at(child) - scene.at(parent);
+      scene.join(jointOf(JointKind::kSlider, parent, child, {.axis = {0.6, 0.8}}, on_parent));
     }
   }
   if (is_bounded) scene.join(JointKind::kRope, 0, count - 1, 1000);
@@ -150,9 +149,7 @@ TEST(RigidLinkage, FortyLegsOnOneBodyHold) {
   for (int i = 0; i < 40; ++i) {
     const double angle = 0.157 * i;
     const int leg = scene.point({2 * std::cos(angle), 2 * std::sin(angle)}, 3);
-    Joint rod = JointScene::joint(JointKind::kDistance, 0, leg, 1);
-    rod.anchor_a = {std::cos(angle), std::sin(angle)};
-    scene.join(rod);
+    scene.join(jointOf(JointKind::kDistance, 0, leg, {.length = 1}, {std::cos(angle), std::sin(angle)}));
   }
   scene.setVelocity(0, {}, 1);
   scene.step({});
@@ -202,11 +199,7 @@ TEST(RigidLinkage, ChangesOfTheGroupAreFollowed) {
   JointScene scene = test::ropeOf(5, 1);
   for (int i = 0; i < 10; ++i) scene.step(kDown);
   const auto substeps = scene.world.linkageCounters().substeps;
-  const int mouse = scene.join([] {
-    Joint joint = JointScene::joint(JointKind::kMouse, -1, 3);
-    joint.stiffness = 0.1;
-    return joint;
-  }());
+  const int mouse = scene.join(jointOf(JointKind::kMouse, -1, 3, {.stiffness = 0.1}));
   for (int i = 0; i < 10; ++i) scene.step(kDown);
   EXPECT_EQ(scene.world.linkageCounters().substeps, substeps);
   EXPECT_LE(scene.worstGap(), 1e-6);

@@ -78,9 +78,8 @@ TEST(RigidPendulum, SwingsBetweenAngleLimitsWithoutLoss) {
   JointScene scene = test::nailed();
   scene.rigid({1, 0}, 2, 0.5);
   scene.joinAt(JointKind::kHinge, 0, 1, {0, 0});
-  Joint limit = JointScene::joint(JointKind::kAngleLimit, 0, 1);
+  Joint limit = test::jointOf(JointKind::kAngleLimit, 0, 1, {.lower = -3, .upper = 3});
   limit.reference = {0, 1};
-  limit.lower = -3, limit.upper = 3;
   scene.join(limit);
   const Swing swing = swingOf(scene, 1800);
   EXPECT_LE(swing.energy / 20, 1e-3);

@@ -9,6 +9,7 @@
 
 #include "physics/geometry/Mass.h"
 #include "physics/rigid/RigidWorld.h"
+#include "tests/server/physics/Joints.h"
 #include "tests/server/physics/Shapes.h"
 
 namespace naiad::physics::test {
@@ -68,9 +69,7 @@ inline Bits bitsOf(const RigidBody& body) {
 }
 
 inline RigidOptions sleepless() {
-  RigidOptions options;
-  options.may_sleep = false;
-  return options;
+  return {.may_sleep = false};
 }
 
 /// Makes a world whose body 0 is a floor with its surface at y = 0.

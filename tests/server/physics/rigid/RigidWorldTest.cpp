@@ -332,11 +332,7 @@ TEST(RigidWorld, ABridgeBearsItsLoad) {
   const int right = world.add(immovable({19, 0}), std::span<const ConvexShape>());
   int last = left, joints = 0;
   const auto hinge = [&](int a, int b, Vec2 on_a, Vec2 on_b) {
-    Joint joint;
-    joint.kind = JointKind::kHinge;
-    joint.a = a, joint.b = b;
-    joint.anchor_a = on_a, joint.anchor_b = on_b;
-    EXPECT_EQ(world.addJoint(joint), joints++);
+    EXPECT_EQ(world.addJoint(jointOf(JointKind::kHinge, a, b, {}, on_a, on_b)), joints++);
   };
   Vec2 end = {0, 0};  // at the start, the chain hangs in a V
   for (int i = 0; i < 20; ++i) {

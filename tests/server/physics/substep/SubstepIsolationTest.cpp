@@ -66,10 +66,7 @@ class Neighbours {
     return m_world.addInOrder(order, bodyOf(i, left, is_disc, kind), std::span(&shape, 1));
   }
   void hinge(int a, int b) {
-    Joint joint;
-    joint.kind = JointKind::kHinge;
-    joint.a = a, joint.b = b;
-    joint.anchor_a = {0.55, 0}, joint.anchor_b = {-0.55, 0};
+    const Joint joint = jointOf(JointKind::kHinge, a, b, {}, {0.55, 0}, {-0.55, 0});
     EXPECT_GE(m_world.addJoint(joint, false), 0);
   }
   // Joins the last three bodies. Joints that share a body are solved in the order of their addition.

@@ -10,17 +10,6 @@
 
 namespace naiad::physics::test {
 
-/// Settings of a joint, except its kind and bodies.
-struct JointSettings {
-  double length = 0;
-  Vec2 axis = {1, 0};
-  double stiffness = 0, damping = 0;
-  double lower = 0, upper = 0;
-  double speed = 0, max_force = kNoLimit;
-  Place target = {};
-  double break_force = kNoLimit;
-};
-
 /// A world that gives its bodies consecutive orders.
 struct SubstepScene {
   explicit SubstepScene(SubstepOptions options = {}) : world(options) {}
@@ -36,16 +25,7 @@ struct SubstepScene {
   }
   int join(const JointSettings& its, JointKind kind, int a, int b, Vec2 on_a = {}, Vec2 on_b = {},
            bool may_touch = false) {
-    Joint joint;
-    joint.kind = kind;
-    joint.a = a, joint.b = b;
-    joint.anchor_a = on_a, joint.anchor_b = on_b;
-    joint.length = its.length, joint.axis = its.axis;
-    joint.stiffness = its.stiffness, joint.damping = its.damping;
-    joint.lower = its.lower, joint.upper = its.upper;
-    joint.speed = its.speed, joint.max_force = its.max_force;
-    joint.target = its.target, joint.break_force = its.break_force;
-    return world.addJoint(joint, may_touch);
+    return world.addJoint(jointOf(kind, a, b, its, on_a, on_b), may_touch);
   }
   void ticks(int n) {
     for (int i = 0; i < n; ++i) world.step();
@@ -64,9 +44,7 @@ struct SubstepScene {
 };
 
 inline SubstepOptions awake() {
-  SubstepOptions options;
-  options.may_sleep = false;
-  return options;
+  return {.may_sleep = false};
 }
 
 }  // namespace naiad::physics::test
