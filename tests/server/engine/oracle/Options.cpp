@@ -8,47 +8,24 @@ OptionMix OptionMix::random(Rng& rng) {
   OptionMix mix;
   mix.any = rng.chance(50);
   constexpr std::array<int, 4> percents{10, 30, 60, 100};
-  const auto percent = [&] { return percents[static_cast<std::size_t>(rng.below(4))]; };
   const int which = rng.below(8);
   if (!mix.any) return mix;
-  switch (which) {
-    case 0:  // some swept Objects among Objects that follow the book
-      mix.swept = percent();
-      break;
-    case 1:
-      mix.sweep_all = true;
-      mix.scripts_sweep = rng.chance(20);
-      break;
-    case 2:
-      mix.precise = percent();
-      mix.masked = percent();
-      break;
-    case 3:
-      mix.swept = percent();
-      mix.precise = percent();
-      mix.masked = percent();
-      break;
-    case 4:
-      mix.rest_contacts = percent();
-      mix.may_move_out = percent();
-      break;
-    case 5:  // all options, each rare
-      mix.swept = mix.precise = mix.rest_contacts = mix.may_move_out = 5;
-      mix.masked = 20;
-      mix.scripts_sweep = true;
-      break;
-    case 6:
-      mix.swept = percent();
-      mix.may_move_out = percent();
-      break;
-    default:  // all options, often frequent
-      mix.swept = percent();
-      mix.precise = percent();
-      mix.masked = percent();
-      mix.rest_contacts = percent();
-      mix.may_move_out = percent();
-      mix.scripts_sweep = rng.chance(50);
-      break;
+  // The options of each kind of mix: swept, precise, masked, rest_contacts and may_move_out, as bits.
+  constexpr std::array<unsigned, 8> kinds{0b10000, 0, 0b01100, 0b11100, 0b00011, 0, 0b10001, 0b11111};
+  unsigned bit = 0b10000;
+  for (const auto option : {&OptionMix::swept, &OptionMix::precise, &OptionMix::masked,
+                            &OptionMix::rest_contacts, &OptionMix::may_move_out}) {
+    if ((kinds[static_cast<std::size_t>(which)] & bit) != 0)
+      mix.*option = percents[static_cast<std::size_t>(rng.below(4))];
+    bit /= 2;
+  }
+  if (which == 1) mix.sweep_all = true;
+  if (which == 1) mix.scripts_sweep = rng.chance(20);
+  if (which == 7) mix.scripts_sweep = rng.chance(50);
+  if (which == 5) {  // all options, each rare
+    mix.swept = mix.precise = mix.rest_contacts = mix.may_move_out = 5;
+    mix.masked = 20;
+    mix.scripts_sweep = true;
   }
   return mix;
 }
