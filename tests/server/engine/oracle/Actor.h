@@ -6,21 +6,12 @@
 #include <vector>
 
 #include "RandomWorld.h"
-#include "shared/values/Fixed.h"
-#include "shared/values/Solidness.h"
 
 namespace oracle {
 
 /// The state of one Object after a tick.
-struct Snapshot {
+struct Snapshot : State {
   int id = 0;
-  FixedVector position;
-  FixedVector velocity;
-  FixedBox box;
-  Solidness solidness = df::HARD;
-  bool no_soft = false;
-  bool active = true;
-  Options options;
 
   friend bool operator==(const Snapshot&, const Snapshot&) = default;
 };

@@ -30,7 +30,7 @@ class BookTest : public testing::Test, protected Handlers {
   }
   Object* makeSwept(double x, double y) {
     Object* p_o = make(x, y);
-    p_o->swept = true;
+    p_o->options.swept = true;
     return p_o;
   }
   /// Makes a window from the top to the bottom of the world.
@@ -164,7 +164,7 @@ TEST_F(BookTest, PreciseCharactersPassSideBySide) {
   Object* p_o = make(10, 10);
   make(15, 11);
   EXPECT_EQ(m_world.moveObject(p_o, cells(15, 10)), -1);
-  p_o->precise = true;
+  p_o->options.precise = true;
   EXPECT_EQ(m_world.moveObject(p_o, cells(15, 10)), 0);
   EXPECT_EQ(m_world.moveObject(p_o, cells(15, 10.5)), -1);  // 10.5 lies in the cell of 11
   EXPECT_EQ(m_world.moveObject(p_o, cells(15, 10.5) - FixedVector{0, 1}), 0);
@@ -175,9 +175,9 @@ TEST_F(BookTest, SweptShotStopsAtTheEndOfAHole) {
   Object* p_mouth = make(20, 10);
   p_mouth->box = boxOf(5, 3);
   p_mouth->mask = {"#####", "    #", "#####"};
-  p_mouth->precise = true;
+  p_mouth->options.precise = true;
   Object* p_shot = make(10, 10);
-  p_shot->swept = true;
+  p_shot->options.swept = true;
   EXPECT_EQ(m_world.moveObject(p_shot, cells(30, 10)), -1);
   // The throat is in cell 22; the shot enters that cell at 21.5.
   EXPECT_EQ(p_shot->position, cells(21.5, 10) - (FixedVector{1, 0}));
@@ -188,9 +188,9 @@ TEST_F(BookTest, ObjectLeavingOneToothMayHitTheNext) {
   Object* p_comb = make(20, 10);
   p_comb->box = boxOf(9, 1);
   p_comb->mask = {"#   #   #"};  // in cells 16, 20 and 24
-  p_comb->precise = true;
+  p_comb->options.precise = true;
   Object* p_o = make(16, 10);
-  p_o->swept = true;
+  p_o->options.swept = true;
   // The box distance is largest above and below, so moving along the comb never closes the gap.
   EXPECT_EQ(m_world.moveObject(p_o, cells(18, 10)), 0);  // between two teeth
   EXPECT_EQ(m_world.moveObject(p_o, cells(16, 10)), -1);
@@ -210,11 +210,11 @@ TEST_F(BookTest, RestContactsAreSentOnRequest) {
   make(11, 10);
   m_world.update();
   EXPECT_EQ(m_events, "");
-  p_floor->rest_contacts = true;
+  p_floor->options.rest_contacts = true;
   m_world.update();
   EXPECT_EQ(m_events, "0:0>1 1:0>1 ");
   EXPECT_EQ(m_where, cells(10, 10));
-  p_floor->swept = true;
+  p_floor->options.swept = true;
   m_world.update();
   EXPECT_EQ(m_events, "0:0>1 1:0>1 0:0>1 1:0>1 ");
 }
@@ -223,12 +223,12 @@ TEST_F(BookTest, RestContactsAreSentOnRequest) {
 TEST_F(BookTest, MoveOutObjectLeavesAWallStepByStep) {
   for (const bool swept : {false, true}) {
     Object* p_o = make(12, swept ? 18 : 6);
-    p_o->swept = swept;
+    p_o->options.swept = swept;
     make(10, swept ? 18 : 6)->box = boxOf(6, 6);
     const FixedVector start = p_o->position;
     const FixedVector step = cells(0.5, 0);
     EXPECT_EQ(m_world.moveObject(p_o, start + step), -1);
-    p_o->may_move_out = true;
+    p_o->options.may_move_out = true;
     EXPECT_EQ(m_world.moveObject(p_o, start - step), -1);  // deeper
     EXPECT_EQ(m_world.moveObject(p_o, start), -1);         // as deep as before
     m_events.clear();
@@ -242,7 +242,7 @@ TEST_F(BookTest, MoveOutObjectLeavesAWallStepByStep) {
 // "a pair that touches at the start of the move": other pairs block as always.
 TEST_F(BookTest, MovingOutDoesNotAllowEnteringAnother) {
   Object* p_o = make(10, 10);
-  p_o->may_move_out = true;
+  p_o->options.may_move_out = true;
   make(9.5, 10);
   make(12, 10);
   EXPECT_EQ(m_world.moveObject(p_o, cells(11, 10)), -1);
@@ -265,7 +265,7 @@ TEST_F(BookTest, SweptArrowStopsJustBeforeTheGlass) {
     Object* p_arrow = make(10, swept ? 10 : 20);
     p_arrow->box = boxOf(4, 1);
     p_arrow->velocity = cells(15, 0);
-    p_arrow->swept = swept;
+    p_arrow->options.swept = swept;
     if (!swept) makeGlass(33);
   }
   for (int i = 0; i < 3; ++i) m_world.update();

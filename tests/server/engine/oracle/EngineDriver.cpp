@@ -117,9 +117,9 @@ std::vector<Snapshot> EngineDriver::snapshot() const {
   for (int i = 0; i < all.getCount(); ++i) {
     const df::Object* p_o = all[i];
     const Options options{p_o->isSwept(), p_o->isPrecise(), p_o->hasRestContacts(), p_o->getMayMoveOut()};
-    result.push_back({Numbered::number(p_o), fixed(p_o->getPosition()), fixed(p_o->getVelocity()),
-                      *df::toFixed(p_o->getBox()), p_o->getSolidness(), p_o->getNoSoft(), p_o->isActive(),
-                      options});
+    result.push_back({{fixed(p_o->getPosition()), fixed(p_o->getVelocity()), *df::toFixed(p_o->getBox()),
+                       p_o->getSolidness(), p_o->getNoSoft(), p_o->isActive(), options},
+                      Numbered::number(p_o)});
   }
   return result;
 }

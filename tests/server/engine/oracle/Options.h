@@ -1,10 +1,15 @@
-// The options of an Object beyond the book (docs/collisions.md), and the frequency of each in a world.
+// The options of an Object beyond the book (docs/collisions.md), its state, and the frequency of each option
+// in a world.
 #pragma once
 
 #include "OracleMask.h"
 #include "Rng.h"
+#include "shared/values/Solidness.h"
 
 namespace oracle {
+
+using df::FixedVector;
+using df::Solidness;
 
 /// The options of one Object.
 struct Options {
@@ -14,6 +19,19 @@ struct Options {
   bool may_move_out = false;
 
   friend bool operator==(const Options&, const Options&) = default;
+};
+
+/// The state of an Object, which is compared after each tick.
+struct State {
+  FixedVector position;
+  FixedVector velocity;
+  FixedBox box;  ///< relative to the position
+  Solidness solidness = df::HARD;
+  bool no_soft = false;
+  bool active = true;
+  Options options;
+
+  friend bool operator==(const State&, const State&) = default;
 };
 
 /// Percentages of a world's Objects with each option, and the options that scripts may change.

@@ -50,8 +50,8 @@ void World::update() {
     const FixedVector new_pos = p_o->predictPosition();
     const std::int64_t collisions_before = m_counters.collisions;
     const bool rests = new_pos == p_o->position;
-    if (!rests || p_o->rest_contacts) moveObject(p_o, new_pos);
-    if (rests && p_o->rest_contacts) {
+    if (!rests || p_o->options.rest_contacts) moveObject(p_o, new_pos);
+    if (rests && p_o->options.rest_contacts) {
       ++m_counters.rest_moves;
       if (m_counters.collisions > collisions_before) ++m_counters.rest_contacts;
     }

@@ -13,38 +13,25 @@
 #include <vector>
 
 #include "Counters.h"
+#include "Options.h"
 #include "OracleGeometry.h"
 #include "OracleMask.h"
 #include "shared/values/Fixed.h"
-#include "shared/values/Solidness.h"
 
 namespace oracle {
-
-using df::Solidness;
 
 /// The box of a single character: one cell, centred on the position.
 inline constexpr FixedBox kCharacterBox{{-df::kFixedOne / 2, -df::kFixedOne / 2},
                                         {df::kFixedOne, df::kFixedOne}};
 
 /// An Object of the book, without anything to draw.
-struct Object {
+struct Object : State {
   int id = 0;
-  FixedVector position;
-  FixedVector velocity;
   FixedVector acceleration;
-  FixedBox box = kCharacterBox;  ///< relative to the position
-  Solidness solidness = df::HARD;
-  bool no_soft = false;
-  bool active = true;
   bool gone = false;  ///< deleted or removed from the world; only older lists still contain it
+  Mask mask;          ///< beyond the book, as the options are (docs/collisions.md)
 
-  // Options beyond the book (docs/collisions.md).
-  bool swept = false;
-  bool precise = false;
-  Mask mask;
-  bool rest_contacts = false;
-  bool may_move_out = false;
-
+  Object() { box = kCharacterBox; }
   bool isSolid() const { return solidness == df::HARD || solidness == df::SOFT; }
   FixedVector predictPosition() const { return position + velocity; }
   /// Returns the box that the Object would have at `where` (section 4.13).

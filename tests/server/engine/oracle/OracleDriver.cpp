@@ -16,15 +16,10 @@ void OracleDriver::create(int id, const Spec& spec) {
   Object* p_o = m_world.create(id);
   m_objects.push_back(p_o);
   m_deaf.push_back(spec.temper == Temper::DEAF);
+  static_cast<State&>(*p_o) = spec;
   p_o->position = inDoubles(spec.position);
-  p_o->velocity = spec.velocity;
   p_o->acceleration = spec.acceleration;
-  p_o->box = spec.box;
-  p_o->solidness = spec.solidness;
-  p_o->no_soft = spec.no_soft;
-  p_o->active = spec.active;
   p_o->mask = spec.mask;
-  setOptions(id, spec.options);
 }
 
 int OracleDriver::moveObject(int id, FixedVector where) {
@@ -33,14 +28,6 @@ int OracleDriver::moveObject(int id, FixedVector where) {
 
 void OracleDriver::setPosition(int id, FixedVector position) {
   object(id)->position = inDoubles(position);
-}
-
-void OracleDriver::setOptions(int id, Options options) {
-  Object* p_o = object(id);
-  p_o->swept = options.swept;
-  p_o->precise = options.precise;
-  p_o->rest_contacts = options.rest_contacts;
-  p_o->may_move_out = options.may_move_out;
 }
 
 FixedVector OracleDriver::getPosition(int id) const {
@@ -79,9 +66,8 @@ void OracleDriver::tick() {
 std::vector<Snapshot> OracleDriver::snapshot() const {
   std::vector<Snapshot> result;
   for (const Object* p_o : m_world.getAllObjects()) {
-    const Options options{p_o->swept, p_o->precise, p_o->rest_contacts, p_o->may_move_out};
-    result.push_back({p_o->id, inDoubles(p_o->position), p_o->velocity, p_o->box, p_o->solidness,
-                      p_o->no_soft, p_o->active, options});
+    result.push_back({*p_o, p_o->id});
+    result.back().position = inDoubles(p_o->position);
   }
   return result;
 }

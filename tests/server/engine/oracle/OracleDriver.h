@@ -28,7 +28,7 @@ class OracleDriver : public Actor, private Handlers {
   void setBox(int id, FixedBox box) override { object(id)->box = box; }
   void setNoSoft(int id, bool no_soft) override { object(id)->no_soft = no_soft; }
   void setActive(int id, bool active) override { object(id)->active = active; }
-  void setOptions(int id, Options options) override;
+  void setOptions(int id, Options options) override { object(id)->options = options; }
   void setMask(int id, const Mask& mask) override { object(id)->mask = mask; }
   void setSweptCollisions(bool swept) override { m_world.setSweptCollisions(swept); }
   FixedVector getPosition(int id) const override;

@@ -11,7 +11,7 @@ int World::moveNow(Object* p_o, FixedVector where) {
   }
   const SweepPath path{p_o->position, where};
   if (p_o->isSolid()) {
-    if (p_o->swept || m_swept_collisions) return moveSwept(p_o, path);
+    if (p_o->options.swept || m_swept_collisions) return moveSwept(p_o, path);
     if (!moveAtOnce(p_o, path)) return -1;
   }
   place(p_o, where);  // nothing blocks the move
@@ -36,7 +36,7 @@ World::Verdict World::judge(const Object* p_o, const Object* p_other, const Swee
   const bool soft_block = p_o->no_soft && p_other->solidness == df::SOFT;
   if (!hard_block && !soft_block) return Verdict::PASSES;
 
-  if (p_o->may_move_out) {
+  if (p_o->options.may_move_out) {
     const FixedBox at_start = p_o->getWorldBox(path.from);
     const FixedBox at_end = p_o->getWorldBox(path.to);
     const FixedBox others = p_other->getWorldBox(p_other->position);
@@ -47,7 +47,7 @@ World::Verdict World::judge(const Object* p_o, const Object* p_other, const Swee
 }
 
 bool World::isPrecise(const Object* p_o, const Object* p_other) const {
-  return p_o->precise || p_other->precise;
+  return p_o->options.precise || p_other->options.precise;
 }
 
 bool World::shareCellAt(const Object* p_o, FixedVector where, const Object* p_other) {

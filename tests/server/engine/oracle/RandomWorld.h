@@ -8,12 +8,8 @@
 #include "Options.h"
 #include "Rng.h"
 #include "shared/values/Fixed.h"
-#include "shared/values/Solidness.h"
 
 namespace oracle {
-
-using df::FixedVector;
-using df::Solidness;
 
 inline constexpr df::Fixed kOne = df::kFixedOne;
 
@@ -29,15 +25,8 @@ enum class Temper {
 };
 
 /// All initial properties of an Object.
-struct Spec {
-  FixedVector position;
-  FixedVector velocity;
+struct Spec : State {
   FixedVector acceleration;
-  FixedBox box;
-  Solidness solidness = df::HARD;
-  bool no_soft = false;
-  bool active = true;
-  Options options;
   Mask mask;
   Temper temper = Temper::QUIET;
 };
