@@ -52,6 +52,22 @@ class WorldTest : public ::testing::Test {
     event.setKeyboardAction(action);
     WM.onEvent(&event);
   }
+  /// Runs a tick in which a player joins. Returns their id.
+  std::uint32_t joined(const std::string& name, Color color = RED) {
+    const std::uint32_t player = world.input().join(name, color);
+    world.tick();
+    return player;
+  }
+  /// Runs a tick in which these players press a key, in this order.
+  void pressedBy(std::initializer_list<std::uint32_t> players, Keyboard::Key key) {
+    for (const std::uint32_t player : players) world.input().key(player, key, KEY_PRESSED);
+    world.tick();
+  }
+  /// Runs a tick in which a player leaves.
+  void left(std::uint32_t player) {
+    world.input().leave(player);
+    world.tick();
+  }
   /// Returns the contents of the window's `row`, without blanks, after each of `ticks` ticks.
   std::string shown(int row, int ticks) {
     std::string all;

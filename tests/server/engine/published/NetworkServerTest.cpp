@@ -48,8 +48,7 @@ TEST_F(NetworkServerTest, ServerHalfOfATwoProgramGameServesPlayers) {
   EXPECT_EQ(play("server", "",
                  [&] {
                    world.input().setGameOverLeaves(true);
-                   const std::uint32_t ann = world.input().join("ann", CYAN);
-                   world.tick();
+                   const std::uint32_t ann = joined("ann", CYAN);
                    EXPECT_EQ(WM.objectsOfType("Hand").getCount(), 0) << "it waits for two";
                    const std::uint32_t bob = world.input().join("bob", RED);
                    ticks(2);
@@ -61,13 +60,11 @@ TEST_F(NetworkServerTest, ServerHalfOfATwoProgramGameServesPlayers) {
                    point(bob, 50, 6);
                    EXPECT_EQ(WM.objectsOfType("Apple").getCount(), 6);
                    EXPECT_NE(world.picture().render({}).rowText(1).find("Player 1 10"), std::string::npos);
-                   world.input().key(ann, Keyboard::SPACE, KEY_PRESSED);
-                   world.tick();
+                   pressedBy({ann}, Keyboard::SPACE);
                    EXPECT_EQ(shown('A'), Vector(40, 12));
                    EXPECT_EQ(shown('B'), Vector(50, 6));
                    // handleClose() calls setGameOver(), but ann continues because bob has already left.
-                   world.input().leave(bob);
-                   world.tick();
+                   left(bob);
                    EXPECT_FALSE(GM.getGameOver());
                    const std::uint32_t cy = world.input().join("cy", RED);
                    ticks(2);
@@ -102,13 +99,10 @@ TEST_F(NetworkServerTest, PlayersBeyondTheLimitWatch) {
   EXPECT_EQ(NM.getSocket(0), 0);
   EXPECT_EQ(NM.getSocket(1), -1);
   received.clear();
-  world.input().key(ann, Keyboard::A, KEY_PRESSED);
-  world.input().key(bob, Keyboard::A, KEY_PRESSED);
-  world.tick();
+  pressedBy({ann, bob}, Keyboard::A);
   EXPECT_EQ(received, (std::vector<std::string>{"probe:df-keyboard-network", "probe:df-keyboard"}));
   received.clear();
-  world.input().leave(ann);
-  world.tick();
+  left(ann);
   EXPECT_EQ(received, (std::vector<std::string>{"probe:df-network-close", "probe:df-network"}));
   received.clear();
   world.tick();
@@ -144,9 +138,7 @@ TEST_F(NetworkServerTest, PlayingServerUsesTheFirstPlayerAsLocal) {
   const std::uint32_t bob = world.input().join("bob", RED);
   ticks(2);
   EXPECT_EQ(NM.getNumConnections(), 1);
-  world.input().key(ann, Keyboard::A, KEY_PRESSED);
-  world.input().key(bob, Keyboard::A, KEY_PRESSED);
-  world.tick();
+  pressedBy({ann, bob}, Keyboard::A);
   EXPECT_EQ(received, (std::vector<std::string>{"hero:df-keyboard", "hero:df-keyboard-network"}));
 }
 
@@ -166,8 +158,7 @@ TEST_F(NetworkServerTest, SpectatorsDoNotSteerTheServersPlayer) {
   world.input().mouse(cy, CLICKED, Mouse::LEFT, 3, 4);
   world.tick();
   EXPECT_TRUE(received.empty());
-  world.input().key(ann, Keyboard::A, KEY_PRESSED);
-  world.tick();
+  pressedBy({ann}, Keyboard::A);
   EXPECT_EQ(received, (std::vector<std::string>{"hero:df-keyboard"}));
 }
 

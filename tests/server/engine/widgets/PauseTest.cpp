@@ -81,8 +81,7 @@ TEST_F(PauseTest, DepartedPlayersAreNotCounted) {
   join(4);
   press({0, 1});
   EXPECT_FALSE(world.isPaused()) << "two of four";
-  world.input().leave(players[3]);
-  world.tick();
+  left(players[3]);
   EXPECT_TRUE(world.isPaused()) << "two of three";
   EXPECT_EQ(notes(), Notes{"pause: 2 of 3"});
 }
@@ -90,8 +89,7 @@ TEST_F(PauseTest, DepartedPlayersAreNotCounted) {
 TEST_F(PauseTest, DepartedPlayersLoseTheirVote) {
   join(3);
   press({0});
-  world.input().leave(players[0]);
-  world.tick();
+  left(players[0]);
   press({1});
   EXPECT_FALSE(world.isPaused());
   EXPECT_EQ(notes(), Notes{"pause: 1 of 2"});
@@ -101,11 +99,9 @@ TEST_F(PauseTest, GameResumesWhenTheLastPlayerLeaves) {
   join(2);
   press({0, 1});
   ASSERT_TRUE(world.isPaused());
-  world.input().leave(players[0]);
-  world.tick();
+  left(players[0]);
   EXPECT_TRUE(world.isPaused()) << "one is there, and may want it";
-  world.input().leave(players[1]);
-  world.tick();
+  left(players[1]);
   EXPECT_FALSE(world.isPaused());
 }
 
@@ -133,8 +129,7 @@ TEST_F(PauseTest, JoinAndLeaveEventsAreSentDuringPause) {
   for (const std::string& type : {std::string(JOIN_EVENT), std::string(LEAVE_EVENT), std::string(STEP_EVENT)})
     game.registerInterest(type);
   join(1);
-  world.input().leave(players[1]);
-  world.tick();
+  left(players[1]);
   EXPECT_TRUE(world.isPaused());
   EXPECT_EQ(received, (Received{"game:df-join", "game:df-leave"}));
   const EventStep step;

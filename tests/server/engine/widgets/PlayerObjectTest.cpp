@@ -37,8 +37,7 @@ class PlayerObjects : public test::WorldTest {
 
 TEST_F(PlayerObjects, EachJoiningPlayerGetsAnObject) {
   EXPECT_TRUE(WM.objectsOfType("Boat").isEmpty());
-  const std::uint32_t ann = world.input().join("ann", RED), bob = world.input().join("bob", BLUE);
-  world.tick();
+  const std::uint32_t ann = joined("ann"), bob = joined("bob", BLUE);
   ASSERT_EQ(WM.objectsOfType("Boat").getCount(), 2);
   EXPECT_NE(ferryOf(ann), ferryOf(bob));
   EXPECT_EQ(ferryOf(ann)->getPlayer(), world.views().player(ann));
@@ -47,8 +46,7 @@ TEST_F(PlayerObjects, EachJoiningPlayerGetsAnObject) {
 }
 
 TEST_F(PlayerObjects, EachObjectGetsOnlyItsPlayersInput) {
-  const std::uint32_t ann = world.input().join("ann", RED), bob = world.input().join("bob", BLUE);
-  world.tick();
+  const std::uint32_t ann = joined("ann"), bob = joined("bob", BLUE);
   ferryOf(ann)->received.clear(), ferryOf(bob)->received.clear();
   world.input().key(ann, Keyboard::A, KEY_PRESSED);
   world.input().mouse(bob, CLICKED, Mouse::LEFT, 9, 7);
@@ -60,16 +58,14 @@ TEST_F(PlayerObjects, EachObjectGetsOnlyItsPlayersInput) {
 }
 
 TEST_F(PlayerObjects, OtherEventsReachTheBaseClass) {
-  const std::uint32_t ann = world.input().join("ann", RED);
-  world.tick();
+  const std::uint32_t ann = joined("ann");
   ferryOf(ann)->setVelocity(Vector(-10, 0));
   world.tick();
   EXPECT_EQ(ferryOf(ann)->outs, 1);
 }
 
 TEST_F(PlayerObjects, ObjectIsDeletedWhenItsPlayerLeaves) {
-  const std::uint32_t ann = world.input().join("ann", RED), bob = world.input().join("bob", BLUE);
-  world.tick();
+  const std::uint32_t ann = joined("ann"), bob = joined("bob", BLUE);
   Ferry* p_left = ferryOf(bob);
   world.input().leave(ann);
   ticks(2);
@@ -80,8 +76,7 @@ TEST_F(PlayerObjects, ObjectIsDeletedWhenItsPlayerLeaves) {
 
 // The Object may still get a step event in the tick in which its player leaves; getPlayer() is then null.
 TEST_F(PlayerObjects, ObjectWithoutAPlayerGetsNoStep) {
-  const std::uint32_t ann = world.input().join("ann", RED);
-  world.tick();
+  const std::uint32_t ann = joined("ann");
   Ferry* p_ferry = ferryOf(ann);
   p_ferry->unregisterInterest(LEAVE_EVENT);
   world.input().leave(ann);

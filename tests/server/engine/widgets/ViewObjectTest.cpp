@@ -103,8 +103,7 @@ TEST_F(ViewObjectTest, IsDrawnInEveryPlayersView) {
   points.setViewString("P");
   points.setBorder(false);
   points.setLocation(TOP_LEFT);
-  const std::uint32_t player = world.input().join("ann", RED);
-  world.tick();
+  const std::uint32_t player = joined("ann");
   auto* p_ship = new PlacedObject(Vector(300, 70));
   world.views().player(player)->setObject(p_ship);
   world.tick();
@@ -140,17 +139,14 @@ TEST_F(ViewObjectTest, TextEntryTakesKeysUntilReturn) {
 }
 
 TEST_F(ViewObjectTest, TextEntryBelongsToThePlayerThatOpenedIt) {
-  const std::uint32_t ann = world.input().join("ann", RED);
-  const std::uint32_t bob = world.input().join("bob", BLUE);
-  world.tick();
+  const std::uint32_t ann = joined("ann"), bob = joined("bob", BLUE);
   Entry* p_entry = nullptr;
   Probe probe;
   probe.hear(KEYBOARD_EVENT, [&](Probe& p, const Event&) {
     p_entry = new Entry;
     p.unregisterInterest(KEYBOARD_EVENT);
   });
-  world.input().key(ann, Keyboard::SPACE, KEY_PRESSED);
-  world.tick();
+  pressedBy({ann}, Keyboard::SPACE);
   ASSERT_NE(p_entry, nullptr);
   EXPECT_EQ(p_entry->getPlayer(), ann);
   p_entry->clearText();
@@ -161,10 +157,8 @@ TEST_F(ViewObjectTest, TextEntryBelongsToThePlayerThatOpenedIt) {
   world.tick();
   EXPECT_EQ(p_entry->getText(), "a");
   EXPECT_TRUE(p_entry->entered.empty());
-  world.input().leave(ann);
-  world.tick();
-  world.input().key(bob, Keyboard::RETURN, KEY_PRESSED);
-  world.tick();
+  left(ann);
+  pressedBy({bob}, Keyboard::RETURN);
   EXPECT_EQ(p_entry->entered, std::vector<std::string>{"a"}) << "any player can finish";
 }
 
@@ -183,8 +177,7 @@ TEST_F(ViewObjectTest, UnassignedTextEntryTakesKeysOfAllPlayers) {
   world.tick();
   EXPECT_EQ(entry.getText(), "abb");
   entry.setPlayer(0);
-  world.input().key(ann, Keyboard::C, KEY_PRESSED);
-  world.tick();
+  pressedBy({ann}, Keyboard::C);
   EXPECT_EQ(entry.getText(), "abbc");
 }
 

@@ -52,8 +52,7 @@ TEST_F(Capture, ObjectsInAPlayersViewAreDrawn) {
   Probe* a = make("a", 300, 300);
   GM.tick();
   EXPECT_TRUE(received.empty());
-  const std::uint32_t ann = world.input().join("ann", RED);
-  GM.tick();
+  const std::uint32_t ann = joined("ann");
   WM.getPlayer(ann)->setObject(a);
   GM.tick();
   EXPECT_EQ(received, (Received{"a"}));

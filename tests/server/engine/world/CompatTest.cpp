@@ -130,8 +130,7 @@ TEST_F(WorldTest, GameOverForOnePlayerLeavesOthersPlaying) {
   world.input().setGameOverLeaves(true);
   const std::uint32_t ann = world.input().join("ann", CYAN);
   const std::uint32_t bob = world.input().join("bob", RED);
-  world.input().key(bob, Keyboard::Q, KEY_PRESSED);
-  world.tick();
+  pressedBy({bob}, Keyboard::Q);
   EXPECT_FALSE(world.isGameOver());
   EXPECT_EQ(world.input().popLeavers(), std::vector<std::uint32_t>{bob});
   EXPECT_TRUE(world.input().popLeavers().empty());
@@ -139,8 +138,7 @@ TEST_F(WorldTest, GameOverForOnePlayerLeavesOthersPlaying) {
   EXPECT_TRUE(world.isGameOver());
   GM.setGameOver(false);
   world.input().setGameOverLeaves(false);
-  world.input().key(ann, Keyboard::Q, KEY_PRESSED);
-  world.tick();
+  pressedBy({ann}, Keyboard::Q);
   EXPECT_TRUE(world.isGameOver());
 }
 

@@ -52,11 +52,9 @@ TEST_F(DeclaredControls, KeyMovesTheObjectBeforeItsEvent) {
 
 TEST_F(DeclaredControls, WithoutControlsKeysMoveNothing) {
   Probe listener("listener", nullptr, Vector(50, 20));
-  listener.registerInterest(KEYBOARD_EVENT);
   bool handled = true;
-  listener.on_event = [&](Probe&, const Event& e) {
-    handled = static_cast<const EventKeyboard&>(e).isHandled();
-  };
+  listener.hear(KEYBOARD_EVENT,
+                [&](Probe&, const Event& e) { handled = static_cast<const EventKeyboard&>(e).isHandled(); });
   press(RIGHTARROW);
   EXPECT_FALSE(handled);
   expectAt(ship, 10, 10);
@@ -125,8 +123,7 @@ TEST_F(DeclaredControls, VelocitiesAndDrivesMoveInTheSameTick) {
 TEST_F(DeclaredControls, OnlyThePlayersOwnKeysMoveTheirObject) {
   player().setControls(arrows());
   const std::uint32_t bob = world.input().join("bob", GREEN);
-  world.input().key(bob, RIGHTARROW, KEY_PRESSED);
-  GM.tick();
+  pressedBy({bob}, RIGHTARROW);
   expectAt(ship, 10, 10);
 }
 

@@ -34,8 +34,7 @@ TEST_F(GameRoomsTest, RoomCountAndNamesAreLimited) {
 TEST_F(GameRoomsTest, PlayersAreSentOnlyToOtherRooms) {
   keep({.name = "here", .is_this_one = true});
   keep({.name = "there"});
-  const std::uint32_t ann = world.input().join("ann", RED);
-  world.tick();
+  const std::uint32_t ann = joined("ann");
   EXPECT_EQ(rooms.send(ann, "nowhere"), -1);
   EXPECT_EQ(rooms.send(ann, "here"), -1);
   EXPECT_EQ(rooms.send(ann + 1, "there"), -1) << "no such player";
@@ -49,8 +48,7 @@ TEST_F(GameRoomsTest, PlayersAreSentOnlyToOtherRooms) {
 
 TEST_F(GameRoomsTest, TransfersAreLimitedPerTickThenForgotten) {
   keep({.name = "there"});
-  const std::uint32_t ann = world.input().join("ann", RED);
-  world.tick();
+  const std::uint32_t ann = joined("ann");
   for (std::size_t i = 0; i < GameRooms::kMaxSentInTick; ++i) EXPECT_EQ(rooms.send(ann, "there"), 0);
   EXPECT_EQ(rooms.send(ann, "there"), -1);
   world.tick();

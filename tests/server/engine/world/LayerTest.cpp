@@ -128,8 +128,7 @@ class TickAlone : public test::WorldTest {
     probe.registerInterest(KEYBOARD_EVENT);
     probe.on_draw = [this](test::Probe&) { received.push_back("draw"); };
     world.addLayer(std::make_unique<NotingLayer>(received));
-    ann = world.input().join("ann", RED);
-    world.tick();
+    ann = joined("ann");
     received.clear();
   }
 
@@ -138,8 +137,7 @@ class TickAlone : public test::WorldTest {
 };
 
 TEST_F(TickAlone, StagesRunInOrderAndPausedTickOnlyDraws) {
-  world.input().key(ann, Keyboard::A, KEY_PRESSED);
-  world.tick();
+  pressedBy({ann}, Keyboard::A);
   EXPECT_EQ(received, (test::Received{"probe:df-step", "probe:df-keyboard", "layer", "draw"}));
   EXPECT_EQ(world.getStepCount(), 2);
   world.setPaused(true);

@@ -15,11 +15,6 @@ class Players : public WorldTest {
       listener.registerInterest(type);
     }
   }
-  std::uint32_t joined(const std::string& name) {
-    const std::uint32_t id = world.input().join(name, GREEN);
-    GM.tick();
-    return id;
-  }
   Probe listener;
 };
 
@@ -58,8 +53,7 @@ TEST_F(Players, PlayerExistsUntilJustAfterTheLeaveEvent) {
   EXPECT_TRUE(seen);
   EXPECT_EQ(WM.getPlayer(ann), nullptr);
   world.input().leave(ann);
-  world.input().leave(77);
-  GM.tick();
+  left(77);
   EXPECT_EQ(received, (Received{"listener:df-join", "listener:df-leave"}));
   EXPECT_EQ(world.input().join("eve", RED), ann + 1);
 }
@@ -70,8 +64,7 @@ TEST_F(Players, InputFollowsTheStepEventInArrivalOrder) {
   received.clear();
   world.input().mouse(ann, CLICKED, Mouse::LEFT, 3, 4);
   world.input().key(ann, Keyboard::A, KEY_PRESSED);
-  world.input().leave(ann);
-  GM.tick();
+  left(ann);
   EXPECT_EQ(received,
             (Received{"listener:df-step", "listener:df-mouse", "listener:df-keyboard", "listener:df-leave"}));
 }
@@ -120,8 +113,7 @@ TEST_F(Players, PlayersWithoutObjectShareTheWorldsView) {
   WM.setView(Box(Vector(50, 60), 80, 24));
   EXPECT_EQ(WM.getPlayer(ann)->getViewCorner(), Vector(50, 60));
   listener.on_event = [](Probe&, const Event&) { WM.setView(Box(Vector(70, 60), 80, 24)); };
-  world.input().key(ann, Keyboard::A, KEY_PRESSED);
-  GM.tick();
+  pressedBy({ann}, Keyboard::A);
   EXPECT_EQ(WM.getView().getCorner(), Vector(70, 60));
   EXPECT_EQ(world.views().player(joined("bob"))->getViewCorner(), Vector(70, 60));
 }
@@ -136,8 +128,7 @@ TEST_F(Players, InputHandlersSeeThePlayersView) {
     during = WM.getView().getCorner();
     WM.setViewPosition(Vector(300, 112));
   };
-  world.input().key(ann, Keyboard::A, KEY_PRESSED);
-  GM.tick();
+  pressedBy({ann}, Keyboard::A);
   EXPECT_EQ(during, Vector(200, 100));
   EXPECT_EQ(WM.getPlayer(ann)->getViewCorner(), Vector(260, 100));
   EXPECT_EQ(WM.getView().getCorner(), Vector(0, 0));
@@ -237,8 +228,7 @@ TEST_F(Players, ViewFollowingAnotherKeepsThePlayersObject) {
   sight.setPosition(Vector(250, 250));
   player.setObject(&ship);
   listener.on_event = [&](Probe&, const Event&) { WM.setViewFollowing(&sight); };
-  world.input().key(id, Keyboard::F, KEY_PRESSED);
-  GM.tick();
+  pressedBy({id}, Keyboard::F);
   EXPECT_EQ(player.getObject(), &ship);
   EXPECT_EQ(player.facts().followed, sight.key());
   EXPECT_EQ(player.getViewCorner(), Vector(210, 238));

@@ -85,11 +85,9 @@ TEST_F(SoundTest, SoundsPlayedInATickAreInItsView) {
 }
 
 TEST_F(SoundTest, SoundPlayedByAKeyNamesItsPlayer) {
-  const std::uint32_t player = world.input().join("ann", RED);
-  world.tick();
+  const std::uint32_t player = joined("ann");
   probe.hear("df-keyboard", [](Probe&, const Event&) { RM.getSound("fire")->play(true); });
-  world.input().key(player, Keyboard::SPACE, KEY_PRESSED);
-  world.tick();
+  pressedBy({player}, Keyboard::SPACE);
   ASSERT_EQ(view().sounds.size(), 1u);
   EXPECT_EQ(view().sounds[0].player, player);
   EXPECT_TRUE(view().sounds[0].loop);

@@ -62,11 +62,10 @@ TEST_F(SeenAt, LagCompensationAppliesOnlyToInputWithATick) {
   world.input().setLagCompensation(&compensation);
   const std::uint32_t ann = world.input().join("ann", RED);
   Probe dot("dot", nullptr, Vector(40, 5));
-  dot.registerInterest(MSE_EVENT);
   Names at_click;
-  dot.on_event = [&](Probe&, const Event& e) {
+  dot.hear(MSE_EVENT, [&](Probe&, const Event& e) {
     at_click = names(WM.objectsSeenAt(static_cast<const EventMouse&>(e).getMousePosition()));
-  };
+  });
   world.input().mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
   GM.tick();
   EXPECT_EQ(at_click, Names{"dot"});
@@ -92,11 +91,10 @@ TEST_F(SeenAt, ClickUsesTheViewThePlayerSaw) {
   const std::uint32_t ann = world.input().join("ann", RED);
   const std::uint32_t bob = world.input().join("bob", BLUE);
   Probe dot("dot", nullptr, Vector(40, 5));
-  dot.registerInterest(MSE_EVENT);
   std::vector<Vector> clicks;
-  dot.on_event = [&](Probe&, const Event& e) {
+  dot.hear(MSE_EVENT, [&](Probe&, const Event& e) {
     clicks.push_back(static_cast<const EventMouse&>(e).getMousePosition());
-  };
+  });
   compensation.corner = toFixed(Vector(6.6, -2));  // the view begins with cell 7
   world.input().mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
   world.input().mouse(ann, CLICKED, Mouse::LEFT, 30, 5);

@@ -93,12 +93,11 @@ TEST_F(WorldLife, ObjectsMadeInDestructorsAreDeletedToo) {
 
 TEST_F(WorldLife, ShutDownInsideATickWaitsForItsEnd) {
   auto* p = new Probe("quitter");
-  p->registerInterest(STEP_EVENT);
   bool alive_after = false;
-  p->on_event = [&](Probe& self, const Event&) {
+  p->hear(STEP_EVENT, [&](Probe& self, const Event&) {
     GM.shutDown();
     alive_after = self.getType() == "quitter";
-  };
+  });
   GM.run();
   EXPECT_TRUE(alive_after);
   EXPECT_TRUE(GM.getGameOver());
@@ -129,11 +128,10 @@ TEST_F(WorldLife, ShutDownOutsideATickWaitsForTheHandler) {
 TEST_F(WorldLife, RunCanBeCalledAgainAfterGameOver) {
   GM.startUp();
   Probe p("title");
-  p.registerInterest(STEP_EVENT);
   int handled = 0;
-  p.on_event = [&](Probe&, const Event&) {
+  p.hear(STEP_EVENT, [&](Probe&, const Event&) {
     if (++handled % 3 == 0) GM.setGameOver();
-  };
+  });
   GM.run();
   EXPECT_EQ(handled, 3);
   EXPECT_TRUE(GM.getGameOver());
