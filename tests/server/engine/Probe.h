@@ -12,6 +12,7 @@
 #include "engine/events/EventOut.h"
 #include "engine/managers/GameManager.h"
 #include "engine/managers/WorldManager.h"
+#include "engine/sprites/Sprite.h"
 #include "engine/world/Capture.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/EventDispatch.h"
@@ -126,8 +127,14 @@ class Probe : public Object {
   std::vector<std::string>* m_p_received;
 };
 
-inline bool isCollision(const Event& e) {
-  return e.getType() == COLLISION_EVENT;
+/// Makes a sprite whose frames have one row each.
+inline Sprite spriteOf(const std::vector<std::string>& frames, int slowdown = 1) {
+  Sprite sprite(static_cast<int>(frames.size()));
+  sprite.setWidth(static_cast<int>(frames[0].size()));
+  sprite.setHeight(1);
+  sprite.setSlowdown(slowdown);
+  for (const std::string& frame : frames) sprite.addFrame(Frame(sprite.getWidth(), 1, frame));
+  return sprite;
 }
 
 inline void expectAt(const Object& o, double x, double y) {

@@ -1,7 +1,6 @@
 #include "engine/effects/Fader.h"
 #include "engine/effects/Particle.h"
 #include "engine/published/utility.h"
-#include "engine/sprites/Sprite.h"
 #include "tests/server/engine/Probe.h"
 
 namespace df::test {
@@ -101,11 +100,8 @@ TEST_F(ParticleTest, ParticlesDoNotUseTheGamesRandomNumbers) {
 }
 
 TEST_F(ParticleTest, AFrameExplodesIntoItsCharacters) {
-  Sprite s(1);
-  s.setWidth(3);
-  s.setHeight(1);
+  Sprite s = spriteOf({"a#b"});
   s.setTransparency('#');
-  s.addFrame(Frame(3, 1, "a#b"));
   EXPECT_EQ(explode(&s, 0, Vector(10, 10), 5, 1, 0), 0);
   ASSERT_EQ(count(), 2);
   world.tick();

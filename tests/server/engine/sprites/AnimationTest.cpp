@@ -1,33 +1,22 @@
 #include "engine/managers/DisplayManager.h"
 #include "engine/managers/ResourceManager.h"
 #include "engine/sprites/Animation.h"
-#include "engine/sprites/Sprite.h"
 #include "tests/server/engine/Probe.h"
 
 namespace df::test {
 namespace {
 
-/// Makes a sprite whose frames have one row each.
-Sprite sprite(const std::vector<std::string>& frames, int slowdown = 1) {
-  Sprite s(static_cast<int>(frames.size()));
-  s.setWidth(static_cast<int>(frames[0].size()));
-  s.setHeight(1);
-  s.setSlowdown(slowdown);
-  for (const std::string& frame : frames) s.addFrame(Frame(s.getWidth(), 1, frame));
-  return s;
-}
-
 class AnimationTest : public WorldTest {};
 
 TEST_F(AnimationTest, EachFrameIsShownForSlowdownTicks) {
-  Sprite s = sprite({"a", "b", "c"}, 2);
+  Sprite s = spriteOf({"a", "b", "c"}, 2);
   PlacedObject o(Vector(10, 10));
   EXPECT_EQ(o.setSprite(&s), 0);
   EXPECT_EQ(shown(10, 9), "aabbccaab");
 }
 
 TEST_F(AnimationTest, SlowdownZeroOrSlowdownCountMinusOneStops) {
-  Sprite still = sprite({"a", "b"}, 0);
+  Sprite still = spriteOf({"a", "b"}, 0);
   PlacedObject o(Vector(10, 10));
   o.setSprite(&still);
   EXPECT_EQ(shown(10, 4), "aaaa");
@@ -42,7 +31,7 @@ TEST_F(AnimationTest, SlowdownZeroOrSlowdownCountMinusOneStops) {
 }
 
 TEST_F(AnimationTest, AdvancesOffScreenButNotInactiveOrInvisible) {
-  Sprite s = sprite({"a", "b", "c", "d", "e"});
+  Sprite s = spriteOf({"a", "b", "c", "d", "e"});
   Object o;
   o.setSprite(&s);
   o.setPosition(Vector(-1000, 0));
@@ -61,7 +50,7 @@ TEST_F(AnimationTest, AdvancesOffScreenButNotInactiveOrInvisible) {
 }
 
 TEST_F(AnimationTest, GameOwnedAnimationAdvancesWhenDrawn) {
-  Sprite s = sprite({"a", "b"});
+  Sprite s = spriteOf({"a", "b"});
   Animation animation;
   EXPECT_EQ(animation.draw(Vector()), -1);
   animation.setSprite(&s);
@@ -89,7 +78,7 @@ TEST_F(AnimationTest, SpritesAreDrawnAroundThePosition) {
 }
 
 TEST_F(AnimationTest, TransparentCharactersShowTheBackgroundBlanksDoNot) {
-  Sprite s = sprite({"a# b"});
+  Sprite s = spriteOf({"a# b"});
   s.setTransparency('#');
   Probe ground("ground", nullptr, Vector(10, 10));
   ground.setAltitude(0);
@@ -102,7 +91,7 @@ TEST_F(AnimationTest, TransparentCharactersShowTheBackgroundBlanksDoNot) {
 }
 
 TEST_F(AnimationTest, SpriteSetsTheBoxUnlessDisabled) {
-  Sprite s = sprite({"abcd"});
+  Sprite s = spriteOf({"abcd"});
   Object o;
   o.setSprite(&s, false);
   EXPECT_EQ(o.getBox(), Box(Vector(-0.5, -0.5), 1, 1));
@@ -121,7 +110,7 @@ TEST_F(AnimationTest, UnknownSpriteIsRefusedAndShowsAQuestionMark) {
   EXPECT_EQ(logged("setSprite(\"ghost\") of "), 1);
   ASSERT_NE(o.getSprite(), nullptr);
   EXPECT_EQ(shown(10, 1), "?");
-  const Sprite s = sprite({"##"}, 0);
+  const Sprite s = spriteOf({"##"}, 0);
   Sprite known = s;
   o.setSprite(&known);
   EXPECT_EQ(o.setSprite("ghost"), -1);
@@ -133,7 +122,7 @@ TEST_F(AnimationTest, UnknownSpriteIsRefusedAndShowsAQuestionMark) {
 }
 
 TEST_F(AnimationTest, PreciseCollisionsUseTheShownFrame) {
-  Sprite s = sprite({"##  ", "  ##"}, 0);
+  Sprite s = spriteOf({"##  ", "  ##"}, 0);
   PlacedObject wall(Vector(20, 10));
   wall.setSprite(&s);
   Object mover;
@@ -152,7 +141,7 @@ TEST_F(AnimationTest, PreciseCollisionsUseTheShownFrame) {
 }
 
 TEST_F(AnimationTest, AStaticLookFollowsTheFrame) {
-  Sprite s = sprite({"a", "b"});
+  Sprite s = spriteOf({"a", "b"});
   PlacedObject o(Vector(10, 10));
   o.setSprite(&s);
   o.setStaticLook();
@@ -160,7 +149,7 @@ TEST_F(AnimationTest, AStaticLookFollowsTheFrame) {
 }
 
 TEST_F(AnimationTest, AnimatedObjectsCanBeRemovedAndReinserted) {
-  Sprite s = sprite({"a", "b"});
+  Sprite s = spriteOf({"a", "b"});
   std::vector<Object*> objects;
   for (int i = 0; i < 5; ++i) {
     objects.push_back(new Object);
@@ -183,7 +172,7 @@ TEST_F(AnimationTest, AnimatedObjectsCanBeRemovedAndReinserted) {
 }
 
 TEST(AnimationLife, ObjectsOutliveTheirWorld) {
-  Sprite s = sprite({"a", "b"});
+  Sprite s = spriteOf({"a", "b"});
   auto p_world = std::make_unique<World>();
   Object* p_o = nullptr;
   {

@@ -225,12 +225,7 @@ TEST_F(PublishedSprite, SlowdownZeroMinusOneAndMissingAdvanceEveryStep) {
 
 TEST_F(PublishedSprite, GameMadeSpriteAdvancesAndMinusOneStopsIt) {
   world.setCompat();
-  Sprite sprite(2);
-  sprite.setWidth(1);
-  sprite.setHeight(1);
-  sprite.addFrame(Frame(1, 1, "a"));
-  sprite.addFrame(Frame(1, 1, "b"));
-  sprite.setSlowdown(0);
+  Sprite sprite = spriteOf({"a", "b"}, 0);
   Object o;
   o.setSprite(&sprite);
   world.tick();

@@ -53,9 +53,7 @@ TEST_F(DelayedFreeTest, GettersOfADeletedObjectStillWork) {
   EXPECT_EQ(p_gone->setPosition(Vector(5, 5)), 0);
   EXPECT_EQ(p_gone->getWorld(), nullptr);
   EXPECT_EQ(p_gone->registerInterest(STEP_EVENT), -1);
-  Sprite blinking(2);
-  blinking.addFrame(Frame(1, 1, "*"));
-  blinking.addFrame(Frame(1, 1, "+"));
+  Sprite blinking = spriteOf({"*", "+"});
   p_gone->setSprite(&blinking);
   world.tick();
   EXPECT_EQ(p_gone->draw(), 0);
