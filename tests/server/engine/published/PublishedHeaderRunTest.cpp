@@ -1,4 +1,5 @@
-// Runs the functions that PublishedHeaderTest.cpp compiles. That file keeps its own set of includes.
+// Runs the functions that PublishedApiTest.cpp and PublishedHeaderTest.cpp compile. Those files have the
+// includes of a game, and no test headers.
 
 #include <dlfcn.h>
 
@@ -12,11 +13,20 @@ int namesOfAGame();
 int stepsOfTheEngineSpelledTwice();
 void pastTheEngine();
 int logStrings(const df::Object& o);
+int published_api_main(int argc, char* argv[]);
 
 namespace df::test {
 namespace {
 
+using PublishedApi = WorldTest;
 using PublishedHeader = WorldTest;
+
+TEST_F(PublishedApi, EveryPublishedNameExistsAndRuns) {
+  EXPECT_EQ(published_api_main(0, nullptr), 0);
+  EXPECT_EQ(logged("sprites/ship-spr.txt: cannot be read"), 1);
+  EXPECT_EQ(logged("games need no sockets here"), 1);
+  EXPECT_EQ(logged("is removed from the game"), 0);
+}
 
 TEST_F(PublishedHeader, HeaderIncludesTheNamesGamesUse) {
   Probe a("a");
