@@ -10,7 +10,6 @@ namespace {
 /// A layer that lets its bodies fall: each tick moves them by their velocity plus half a tick's gravity.
 class Falling : public Layer {
  public:
-  static constexpr double kGravity = 0.25;
   void step(World& world) override {
     ++steps;
     for (const ObjectKey key : bodies) {
@@ -65,24 +64,6 @@ TEST_F(Layers, OnlyTheLayerMovesItsBodies) {
   layer->bodies.clear();
   world.update();
   EXPECT_EQ(body.getPosition(), Vector(2, 0.375)) << "no body any more: the book's";
-}
-
-TEST_F(Layers, AClientCanComputeABodysFlight) {
-  Object body;
-  layer->add(body);
-  world.store().setWatched(true);
-  body.setVelocity(Vector(0.5, -2));
-  world.tick();
-  ASSERT_EQ(world.picture().view().changed.size(), 1u);
-  FixedVector p = world.picture().view().changed[0].position;
-  FixedVector v = world.picture().view().changed[0].velocity;
-  const FixedVector a = world.picture().view().changed[0].acceleration;
-  for (int i = 0; i < 100; ++i) {
-    world.tick();
-    p = p + v;
-    v = v + a;
-    EXPECT_EQ(world.store().position(body.key().slot), p) << "after " << i << " ticks";
-  }
 }
 
 TEST_F(Layers, ABodyBlocksOthers) {

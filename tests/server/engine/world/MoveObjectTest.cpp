@@ -113,21 +113,5 @@ TEST_F(MoveObject, FirstContactReturnsTheTargetWithoutAContact) {
   EXPECT_EQ(WM.firstContact(a, Vector(50, 10)).p_object, b);
 }
 
-TEST_F(MoveObject, GetCollisionsComparesCharacters) {
-  Probe* corner = make("corner", 10, 10);
-  corner->setBox(Box(Vector(-0.5, -0.5), 4, 4));
-  EXPECT_EQ(corner->setMask({"####", "#   ", "#   ", "#   "}), 0);
-  corner->setPrecise();
-  Probe* b = make("b", 13, 12);
-  const Probe* a = make("a", 30, 12);
-  const ObjectList in_the_hole = WM.getCollisions(a, Vector(12, 12));
-  ASSERT_EQ(in_the_hole.getCount(), 1);
-  EXPECT_EQ(in_the_hole[0], b);
-  const ObjectList on_the_edge = WM.getCollisions(a, Vector(11, 10));
-  ASSERT_EQ(on_the_edge.getCount(), 1);
-  EXPECT_EQ(on_the_edge[0], corner);
-  EXPECT_FALSE(WM.isCollision(a, Vector(11, 12)));
-}
-
 }  // namespace
 }  // namespace df::test

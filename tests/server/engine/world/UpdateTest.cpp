@@ -15,19 +15,6 @@ class Update : public WorldTest {
   }
 };
 
-TEST_F(Update, PositionChangesBeforeVelocity) {
-  Probe* a = make("a", 10, 10);
-  a->setAcceleration(Vector(0.125, 0));
-  const double expected[] = {10, 10.125, 10.375, 10.75};
-  for (const double x : expected) {
-    WM.update();
-    expectAt(*a, x, 10);
-  }
-  EXPECT_EQ(a->getVelocity(), Vector(0.5, 0));
-  EXPECT_EQ(a->getSpeed(), 0.5f);
-  EXPECT_EQ(a->getDirection(), Vector(1, 0));
-}
-
 TEST_F(Update, VelocityNeverLeavesItsRange) {
   Probe* a = make("a", 0, 0, Vector(kMaxVelocityCells, 0));
   a->setAcceleration(Vector(1, 0));

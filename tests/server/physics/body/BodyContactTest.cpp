@@ -54,18 +54,6 @@ TEST_F(BodyContacts, DeletedFloorLetsBodiesFall) {
   EXPECT_NEAR(p_upper->getPosition().y(), 3.5, 1e-9);
 }
 
-TEST_F(BodyContacts, MovedOrSpectralFloorLetsBodiesFall) {
-  Object* p_floor = layFloor(5, 1);
-  Body* p_crate = crate(Vector(0, -0.5));
-  ticks(10);
-  p_floor->setPosition(Vector(0, 6));
-  ticks(60);
-  EXPECT_NEAR(p_crate->getPosition().y(), 4.5, 1e-9);
-  p_floor->setSolidness(SPECTRAL);
-  ticks(30);
-  EXPECT_GT(p_crate->getPosition().y(), 9);
-}
-
 TEST_F(BodyContacts, SoftBodiesGetEventsAndPushNothing) {
   auto* p_soft = ball<Listener>(Vector(3, 0), Vector(0, 0));
   p_soft->setSolidness(SOFT);

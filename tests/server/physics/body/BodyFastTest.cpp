@@ -151,24 +151,5 @@ TEST_F(BodyFast, ASleepingHeapPublishesNothing) {
   EXPECT_GE(layer().substepCounters().contacts, contacts + 80);  // every contact is solved in every tick
 }
 
-TEST_F(BodyFast, DeletedFloorLetsBodiesFallAtBothLevels) {
-  wall(Vector(0, 10), Vector(50, 5));
-  for (const Accuracy accuracy : {ACCURACY_FAST, ACCURACY_DEFAULT}) {
-    SCOPED_TRACE(accuracy);
-    PM.setAccuracy(accuracy);
-    Object* p_floor = wall(Vector(0, 1), Vector(5, 1));
-    auto* p_crate = turningCrate<Listener>(Vector(0, -0.5));
-    ticks(60);
-    EXPECT_NEAR(p_crate->getPosition().y(), -0.5, accuracy == ACCURACY_FAST ? 5e-3 : 1e-3);
-    delete p_floor;
-    ticks(60);
-    EXPECT_NEAR(p_crate->getPosition().y(), 4.5, 1e-2);
-    if (accuracy == ACCURACY_FAST) {
-      EXPECT_EQ(p_crate->begins(), 2);
-    }
-    delete p_crate;
-  }
-}
-
 }  // namespace
 }  // namespace df::test

@@ -31,6 +31,8 @@ TEST_F(BodyRigids, LoneBodyFliesExactly) {
   ticks(60);
   EXPECT_NEAR(p_crate->getPosition().x(), 6, 1e-12);
   EXPECT_NEAR(p_crate->getPosition().y(), -20, 1e-11);
+  EXPECT_NEAR(speedOf(p_crate).x(), 3, 1e-11);
+  EXPECT_NEAR(speedOf(p_crate).y(), 0, 1e-11);
   EXPECT_NEAR(p_crate->getAngle(), 6 - 2 * std::numbers::pi, 1e-12);
   EXPECT_EQ(layer().rigidCounters().ticks, 0);
 }

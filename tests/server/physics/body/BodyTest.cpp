@@ -24,17 +24,6 @@ TEST_F(Bodies, WorldWithoutBodiesHasNoLayer) {
   EXPECT_EQ(world.findLayer<naiad::physics::BodyLayer>(), nullptr);
 }
 
-// Problem 1 of the laboratory, through the public functions.
-TEST_F(Bodies, FreeFallFollowsTheFormula) {
-  PM.setAspect(1);
-  PM.setGravity(perSecondSquared(Vector(0, -10)));
-  auto* p_ball = new Body;
-  ASSERT_EQ(p_ball->setVelocity(perSecond(Vector(3, 20))), 0);
-  ticks(60);
-  expectNear(p_ball->getPosition(), Vector(6, 20), 20e-12);
-  expectNear(p_ball->getVelocity(), perSecond(Vector(3, 0)), 1e-12);
-}
-
 TEST_F(Bodies, LongFlightIsPredictedFromOneRecord) {
   PM.setGravity(Vector(0, 0.0123));
   auto* p_ball = new Body;

@@ -22,10 +22,11 @@ Quad wayOfPush(Quad c, Quad t) {
   return sum;
 }
 
+// It is a spring without stiffness, so that the place on it has no effect.
 TEST(LinearDrag, IsExactFromZeroToExtremeDrag) {
   for (const double t : {1.0, 1.0 / 30, 2.0, 1e4}) {
     for (double c = 1e-300; c < 1e300; c *= 3.7) {
-      const Flown flown = flySpring({}, {10, 0}, {0, -7}, {0, c}, t);
+      const Flown flown = flySpring({5, 5}, {10, 0}, {0, -7}, {0, c}, t);
       const Quad left = expq(-q(c) * q(t)), displacement = -expm1q(-q(c) * q(t)) / q(c);
       const auto relative = [&](double value, Quad truth) {
         if (fabsq(truth) < q(1e-300)) return std::fabs(value) < 1e-290 ? 0.0 : 1.0;
@@ -39,7 +40,7 @@ TEST(LinearDrag, IsExactFromZeroToExtremeDrag) {
       }
     }
   }
-  const Flown none = flySpring({}, {3, 4}, {0, 2}, {0, 0}, 5);
+  const Flown none = flySpring({5, 5}, {3, 4}, {0, 2}, {0, 0}, 5);
   EXPECT_EQ(none.displacement, (Vec2{15, 45}));
   EXPECT_EQ(none.velocity, (Vec2{3, 14}));
 }

@@ -84,17 +84,5 @@ TEST(Spring, StaysBoundedAtAnyStiffnessAndStep) {
   }
 }
 
-TEST(Spring, ZeroStiffnessIsLinearDragOrFreeFlight) {
-  const Flown free = flySpring({5, 5}, {1, 2}, {0, 4}, {0, 0}, 3);
-  EXPECT_EQ(free.displacement, (Vec2{3, 24}));
-  EXPECT_EQ(free.velocity, (Vec2{1, 14}));
-  for (const double c : {1e-9, 0.3, 40.0}) {
-    const Flown f = flySpring({5, 5}, {1, 0}, {0, 1}, {0, c}, 2);
-    const Quad displacement = -expm1q(-2 * q(c)) / q(c);
-    EXPECT_NEAR(f.displacement.x, static_cast<double>(displacement), 1e-15);
-    EXPECT_NEAR(f.velocity.y, static_cast<double>(displacement), 1e-15);
-  }
-}
-
 }  // namespace
 }  // namespace naiad::physics
