@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "physics/body/Body.h"
 #include "physics/body/BodyLayer.h"
 #include "physics/body/EventContactEnd.h"
+#include "physics/body/Field.h"
 #include "physics/body/PhysicsManager.h"
 #include "physics/body/Seconds.h"
 
@@ -114,6 +116,21 @@ struct OwnWorld {
 
   World world;
   World::Scope scope{world};
+};
+
+/// A Field by a function of displacement and velocity. Counts its calls.
+class FieldOf : public Field {
+ public:
+  using Pull = std::function<Vector(Vector displacement, Vector velocity)>;
+  explicit FieldOf(Pull pull) : m_pull(std::move(pull)) {}
+  Vector accelerationAt(Vector displacement, Vector velocity, double /*time*/) const override {
+    ++calls;
+    return m_pull(displacement, velocity);
+  }
+  mutable std::int64_t calls = 0;
+
+ private:
+  Pull m_pull;
 };
 
 /// Position, velocity, angle and spin.

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "physics/body/Field.h"
 #include "tests/server/physics/BodyScene.h"
 
 namespace df::test {
@@ -12,22 +11,14 @@ class BodyFields : public BodyScene {};
 
 // A field by `kind`: proportional to the distance, to its third power, or van der Pol's field, which is
 // smooth, then stiff, then jumps within a tick.
-class CountedField : public Field {
- public:
-  explicit CountedField(int kind, double stiffness) : m_kind(kind), m_stiffness(stiffness) {}
-  Vector accelerationAt(Vector d, Vector v, double /*time*/) const override {
-    ++calls;
+FieldOf fieldOf(int kind, double stiffness) {
+  return FieldOf([kind, stiffness](Vector d, Vector v) {
     const double x = d.x();
-    if (m_kind == 0) return Vector(-m_stiffness * x, 0);
-    if (m_kind == 1) return Vector(-m_stiffness * x * x * x, 0);
-    return Vector(m_stiffness * (900 * (1 - x * x) * v.x() / 30 - x) / 900, 0);
-  }
-  mutable std::int64_t calls = 0;
-
- private:
-  int m_kind;
-  double m_stiffness;
-};
+    if (kind == 0) return Vector(-stiffness * x, 0);
+    if (kind == 1) return Vector(-stiffness * x * x * x, 0);
+    return Vector(stiffness * (900 * (1 - x * x) * v.x() / 30 - x) / 900, 0);
+  });
+}
 
 // The number of calls per tick is limited at any stiffness and number of bodies: for a body in the air, a
 // body that is about to touch a floor, and a hundred bodies.
@@ -36,7 +27,7 @@ TEST_F(BodyFields, FieldCallsPerTickAreBounded) {
   for (const int count : {1, 100}) {
     for (const int kind : {0, 1, 2}) {
       for (const double k : {1.0, 1e4, 1e6, 1e12}) {
-        CountedField field(kind, k);
+        FieldOf field = fieldOf(kind, k);
         std::vector<Body*> bodies;
         for (int i = 0; i < count; ++i) {
           Body* p_body = crate(Vector(2 - 0.001 * i, i == 0 ? -0.5 : -2.0 * i));
@@ -63,7 +54,7 @@ TEST_F(BodyFields, FieldCallsPerTickAreBounded) {
 // A body in a linear field oscillates without loss at any stiffness, because it moves by a formula.
 TEST_F(BodyFields, StiffFieldKeepsEnergyInFlight) {
   for (const double k : {1.0, 1e3, 1e4, 1e6, 1e10}) {
-    const CountedField field(0, k);
+    const FieldOf field = fieldOf(0, k);
     Body* p_ball = ball(Vector(1, 0), Vector());
     p_ball->setField(&field);
     PM.setGravity(Vector(0, 0.001));
@@ -78,28 +69,16 @@ TEST_F(BodyFields, StiffFieldKeepsEnergyInFlight) {
   }
 }
 
-// A force that is constant on both sides of x = 0 and changes its sign within a fiftieth of a cell.
-class Switch : public Field {
- public:
-  explicit Switch(double strength) : m_strength(strength) {}
-  Vector accelerationAt(Vector d, Vector /*v*/, double /*time*/) const override {
-    ++calls;
-    return Vector(-m_strength * std::tanh(50 * d.x()), 0);
-  }
-  mutable std::int64_t calls = 0;
-
- private:
-  double m_strength;
-};
-
-// No body freezes, in the air and on a floor. In the air, none swings farther than from where it started.
+// The force is constant on both sides of x = 0 and changes its sign within a fiftieth of a cell. No body
+// freezes, in the air and on a floor. In the air, none swings farther than from where it started.
 TEST_F(BodyFields, SwitchedForceHoldsABodyAtAnyStrength) {
   for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
     for (double strength = 1; strength <= 1e12; strength *= 10) {
       OwnWorld own;
       PM.setAccuracy(accuracy);
       layFloor();
-      const Switch field(strength);
+      const FieldOf field(
+          [strength](Vector d, Vector /*velocity*/) { return Vector(-strength * std::tanh(50 * d.x()), 0); });
       Body* const bodies[] = {ball(Vector(1, -20), Vector()), crate(Vector(1, -0.5)),
                               turningCrate(Vector(1, -0.5))};
       bodies[0]->setGravityScale(0);

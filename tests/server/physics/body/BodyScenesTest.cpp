@@ -4,7 +4,6 @@
 #include <array>
 #include <numbers>
 
-#include "physics/body/Field.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/server/physics/BodyScene.h"
 
@@ -119,17 +118,6 @@ TEST_F(BodyScenes, GroupOverTheImpactLimitMovesInSubsteps) {
   }
 }
 
-class LinearField : public Field {
- public:
-  explicit LinearField(double stiffness) : m_stiffness(stiffness) {}
-  Vector accelerationAt(Vector displacement, Vector /*velocity*/, double /*time*/) const override {
-    return Vector(-m_stiffness * displacement.x(), -m_stiffness * displacement.y());
-  }
-
- private:
-  double m_stiffness;
-};
-
 constexpr std::array<double, 9> kStiffnesses = {0.01, 0.1, 1, 4.5, 10, 100, 1e4, 1e8, 1e12};
 
 // A box on ice that a spring pulls to a point: its largest distance from the point, in the whole run and at
@@ -186,7 +174,7 @@ TEST_F(PulledBox, ASpringIsBoundedAtAnyStiffness) {
 
 TEST_F(PulledBox, AStiffFieldIsBoundedAtAnyStiffness) {
   for (const double k : kStiffnesses) {
-    const LinearField field(k);
+    const FieldOf field([k](Vector d, Vector /*velocity*/) { return Vector(-k * d.x(), -k * d.y()); });
     const Swing its = swing(k, [&](Body* p_box) { p_box->setField(&field, Vector(0, -0.5)); });
     EXPECT_LE(its.gained, 1e-6) << k;
     EXPECT_LE(its.farthest, 1 + 1e-6) << k;
@@ -222,18 +210,14 @@ TEST_F(BodyScenes, RodAndSpringGainNoEnergy) {
   }
 }
 
-class Magnet : public Field {
- public:
-  double rate = 0;  // rad per tick, from x to y
-  Vector accelerationAt(Vector /*displacement*/, Vector v, double /*time*/) const override {
-    return Vector(-rate * v.y(), rate * v.x());
-  }
-};
+// The rate is in rad per tick, from x to y.
+FieldOf magnetOf(double rate) {
+  return FieldOf([rate](Vector /*displacement*/, Vector v) { return Vector(-rate * v.y(), rate * v.x()); });
+}
 
 // A magnet presses sliding bodies onto the floor and rotating bodies against their rod. Its force is
 // perpendicular to the path, so the speed must not change.
 TEST_F(BodyScenes, MagnetKeepsTheSpeedOfHeldBodies) {
-  Magnet magnet;
   wall(Vector(0, 0.5), Vector(500, 0.5));
   for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
     ASSERT_EQ(PM.setAccuracy(accuracy), 0);
@@ -241,7 +225,7 @@ TEST_F(BodyScenes, MagnetKeepsTheSpeedOfHeldBodies) {
     const double least = accuracy == ACCURACY_DEFAULT ? 0.1 * (1 - 1e-4) : 0.07;
     for (const double rate : {0.01, 1.0, 100.0, 1e4, -1.0, -1e4}) {
       SCOPED_TRACE(testing::Message() << accuracy << ' ' << rate);
-      magnet.rate = rate;
+      const FieldOf magnet = magnetOf(rate);
       put(ball(Vector(5, -20), Vector(0, 3), 0.25));
       PM.addDistance(nullptr, bodies[0], Vector(0, -20), Vector(5, -20));
       put(ball(Vector(100, -0.5), Vector(3, 0)))->setRestitution(0);
@@ -269,12 +253,11 @@ TEST_F(BodyScenes, MagnetKeepsTheSpeedOfHeldBodies) {
 // A magnet of any strength freezes no body: at both levels, in flight, on a floor, on a rod and in a
 // collision.
 TEST_F(BodyScenes, StrongMagnetFreezesNoBodies) {
-  Magnet magnet;
   layFloor(50, 0.5);
   for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
     ASSERT_EQ(PM.setAccuracy(accuracy), 0);
     for (const double rate : {1.0, 100.0, 1e3, 1e4, 1e8}) {
-      magnet.rate = rate;
+      const FieldOf magnet = magnetOf(rate);
       put(ball(Vector(-20, -20), Vector(3, 0)))->setGravityScale(0);
       put(ball(Vector(0, -0.5), Vector(3, 0)));
       put(turningCrate(Vector(10, -0.5)));

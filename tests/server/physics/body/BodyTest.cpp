@@ -3,7 +3,6 @@
 #include "engine/events/EventOut.h"
 #include "engine/world/Capture.h"
 #include "engine/world/WorldStore.h"
-#include "physics/body/Field.h"
 #include "shared/replica/Motion.h"
 #include "tests/server/physics/BodyScene.h"
 #include "tests/support/NotANumber.h"
@@ -104,21 +103,16 @@ TEST_F(Bodies, LeavingTheWorldSendsAnEventThatMayDelete) {
   EXPECT_EQ(PM.getBodyCount(), 0);
 }
 
-class Planet : public Field {
- public:
-  explicit Planet(double pull) : m_pull(pull) {}
-  Vector accelerationAt(Vector displacement, Vector /*velocity*/, double /*time*/) const override {
-    const double r = std::sqrt(displacement.x() * displacement.x() + displacement.y() * displacement.y());
-    return {-m_pull * displacement.x() / (r * r * r), -m_pull * displacement.y() / (r * r * r)};
-  }
-
- private:
-  double m_pull;
-};
+test::FieldOf planetOf(double pull) {
+  return test::FieldOf([pull](Vector d, Vector /*velocity*/) {
+    const double r = std::sqrt(d.x() * d.x() + d.y() * d.y());
+    return Vector(-pull * d.x() / (r * r * r), -pull * d.y() / (r * r * r));
+  });
+}
 
 TEST_F(Bodies, AFieldHoldsASatelliteInItsOrbit) {
   PM.setAspect(1);
-  const Planet planet(perSecondSquared(1));
+  const test::FieldOf planet = planetOf(perSecondSquared(1));
   auto* p_moon = new Body;
   p_moon->setField(&planet, Vector(40, 12));
   p_moon->setPosition(Vector(41, 12));
@@ -130,7 +124,7 @@ TEST_F(Bodies, AFieldHoldsASatelliteInItsOrbit) {
 
 TEST_F(Bodies, BodyInASingularityFreezesAlone) {
   PM.setAspect(1);
-  const Planet planet(1);
+  const test::FieldOf planet = planetOf(1);
   auto* p_doomed = new Body;
   p_doomed->setType("Doomed");
   p_doomed->setField(&planet, Vector(0, 0));
@@ -186,7 +180,7 @@ TEST_F(Bodies, ExcessiveForceIsClampedToMaximumSpeed) {
 }
 
 TEST_F(Bodies, ASceneFarAwayMovesAsAtTheOrigin) {
-  const Planet planet(0.1);
+  const test::FieldOf planet = planetOf(0.1);
   const auto fly = [&](Vector offset) {
     test::OwnWorld there(2);
     PM.setGravity(Vector(0, 0.0321));
