@@ -141,6 +141,21 @@ inline BodyBits stateBits(const Body* p_body) {
       std::array{place.x(), place.y(), velocity.x(), velocity.y(), p_body->getAngle(), p_body->getSpin()});
 }
 
+/// An Object that calls a function with the other Object when a contact begins. The function may delete both.
+template <class Base>
+class Touchy : public Base {
+ public:
+  using Base::Base;
+  int eventHandler(const Event* p_e) override {
+    if (p_e->getType() != COLLISION_EVENT || !on_contact) return 0;
+    const auto* p_c = static_cast<const EventCollision*>(p_e);
+    const auto handler = on_contact;  // a copy, because the function may delete this
+    handler(p_c->getObject1() == this ? p_c->getObject2() : p_c->getObject1());
+    return 1;
+  }
+  std::function<void(Object* p_other)> on_contact;
+};
+
 /// An Object that records its contact events.
 template <class Base>
 class Recording : public Base {

@@ -90,18 +90,11 @@ TEST_F(BodyContacts, SpectralBodiesTouchNothing) {
 }
 
 TEST_F(BodyContacts, HandlerMayDeleteBothBodies) {
-  class Bomb : public Body {
-   public:
-    int eventHandler(const Event* p_e) override {
-      if (p_e->getType() != COLLISION_EVENT) return 0;
-      const auto* p_c = static_cast<const EventCollision*>(p_e);
-      Object* p_other = p_c->getObject1() == this ? p_c->getObject2() : p_c->getObject1();
-      delete p_other;
-      delete this;
-      return 1;
-    }
+  auto* p_bomb = ball<Touchy<Body>>(Vector(0, 0), Vector(6, 0));
+  p_bomb->on_contact = [p_bomb](Object* p_other) {
+    delete p_other;
+    delete p_bomb;
   };
-  ball<Bomb>(Vector(0, 0), Vector(6, 0));
   ball(Vector(2, 0), Vector(0, 0));
   auto* p_third = ball<Listener>(Vector(3, 0), Vector(0, 0));  // it gets the impulse that the first two have
   ticks(20);
@@ -110,22 +103,12 @@ TEST_F(BodyContacts, HandlerMayDeleteBothBodies) {
 }
 
 TEST_F(BodyContacts, HandlerMayCreateBodiesThatReuseRows) {
-  class Splitter : public Body {
-   public:
-    int eventHandler(const Event* p_e) override {
-      if (p_e->getType() != COLLISION_EVENT) return 0;
-      for (int i = 0; i < 4; ++i) {
-        auto* p_part = new Body;
-        p_part->setCircle(0.1);
-        p_part->setPosition(getPosition() + Vector(-1, 0.5 * i));
-        p_part->setVelocity(perSecond(Vector(-3, 0)));
-      }
-      WM.markForDelete(this);
-      return 1;
-    }
-  };
   wall(Vector(3, 0), Vector(0.5, 20));
-  ball<Splitter>(Vector(0, 0), Vector(6, 0));
+  auto* p_splitter = ball<Touchy<Body>>(Vector(0, 0), Vector(6, 0));
+  p_splitter->on_contact = [p_splitter](Object* /*p_other*/) {
+    for (int i = 0; i < 4; ++i) ball(p_splitter->getPosition() + Vector(-1, 0.5 * i), Vector(-3, 0), 0.1);
+    WM.markForDelete(p_splitter);
+  };
   ticks(15);
   EXPECT_EQ(PM.getBodyCount(), 4);
   ticks(15);
@@ -133,15 +116,9 @@ TEST_F(BodyContacts, HandlerMayCreateBodiesThatReuseRows) {
 }
 
 TEST_F(BodyContacts, HandlerMaySetTheBodysVelocity) {
-  class Shy : public Body {
-   public:
-    int eventHandler(const Event* p_e) override {
-      if (p_e->getType() == COLLISION_EVENT) setVelocity(perSecond(Vector(-1, 0)));
-      return 1;
-    }
-  };
   wall(Vector(3, 0), Vector(0.5, 20));
-  Body* p_shy = ball<Shy>(Vector(0, 0), Vector(6, 0));
+  auto* p_shy = ball<Touchy<Body>>(Vector(0, 0), Vector(6, 0));
+  p_shy->on_contact = [p_shy](Object* /*p_other*/) { p_shy->setVelocity(perSecond(Vector(-1, 0))); };
   ticks(60);
   EXPECT_NEAR(speedOf(p_shy).x(), -1, 1e-12);
 }
@@ -188,12 +165,22 @@ TEST_F(BodyContacts, WorldBoundarySendsAnEventButDoesNotBlock) {
    public:
     int eventHandler(const Event* p_e) override {
       if (p_e->getType() == OUT_EVENT) ++out;
+      if (out > 0 && is_deleted) WM.markForDelete(this);
       return Listener::eventHandler(p_e);
     }
     int out = 0;
+    bool is_deleted = false;  // by its handler
   };
   auto* p_ball = ball<Leaver>(Vector(78, 5), Vector(30, 0));
-  ticks(5);
+  auto* p_deleted = ball<Leaver>(Vector(78.5, 15), Vector(30, 0));
+  p_deleted->is_deleted = true;
+  const ObjectKey key = p_deleted->key();
+  ticks(1);
+  EXPECT_NE(world.store().find(key), nullptr);
+  ticks(1);
+  EXPECT_EQ(world.store().find(key), nullptr);
+  ticks(3);
+  EXPECT_EQ(PM.getBodyCount(), 1);
   EXPECT_EQ(p_ball->out, 1);
   EXPECT_TRUE(p_ball->notes.empty());
   EXPECT_NEAR(p_ball->getPosition().x(), 83, 1e-9);

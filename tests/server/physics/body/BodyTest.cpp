@@ -1,6 +1,5 @@
 #include <memory>
 
-#include "engine/events/EventOut.h"
 #include "engine/world/Capture.h"
 #include "engine/world/WorldStore.h"
 #include "shared/replica/Motion.h"
@@ -82,25 +81,6 @@ TEST_F(Bodies, BaseObjectSettersMoveTheBody) {
   p_object->setSpeed(0);
   ticks(1);
   expectNear(p_body->getPosition(), Vector(11, 4.5), 1e-9);
-}
-
-TEST_F(Bodies, LeavingTheWorldSendsAnEventThatMayDelete) {
-  class Leaver : public Body {
-   public:
-    int eventHandler(const Event* p_e) override {
-      if (p_e->getType() == OUT_EVENT) WM.markForDelete(this);
-      return 1;
-    }
-  };
-  auto* p_body = new Leaver;
-  const ObjectKey key = p_body->key();
-  p_body->setPosition(Vector(78.5, 3));
-  p_body->setVelocity(Vector(1, 0));
-  ticks(1);
-  EXPECT_NE(world.store().find(key), nullptr);
-  ticks(1);
-  EXPECT_EQ(world.store().find(key), nullptr);
-  EXPECT_EQ(PM.getBodyCount(), 0);
 }
 
 test::FieldOf planetOf(double pull) {

@@ -338,17 +338,6 @@ TEST_F(BodyTiles, ABodyFallsWhenItsTileGoes) {
 
 // A body falls into a hole that a handler makes in front of it, as into one that was always there.
 TEST_F(BodyTiles, AHoleAppearsWhenAHandlerMakesIt) {
-  struct Digger : Body {
-    std::vector<Object*>* p_hole = nullptr;
-    const Object* p_trigger = nullptr;
-    int eventHandler(const Event* p_e) override {
-      if (p_e->getType() != COLLISION_EVENT || p_hole == nullptr) return 0;
-      if (static_cast<const EventCollision*>(p_e)->getObject2() != p_trigger) return 0;
-      for (Object* p_object : *p_hole) WM.markForDelete(p_object);
-      p_hole->clear();
-      return 1;
-    }
-  };
   for (const bool turns : {false, true}) {
     for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
       std::array<Vector, 2> ends;
@@ -364,14 +353,15 @@ TEST_F(BodyTiles, AHoleAppearsWhenAHandlerMakesIt) {
           for (Object* p_object : hole) delete p_object;
           hole.clear();
         }
-        auto* p_body = new Digger;
-        p_body->setBoxShape(1, 1);
-        p_body->setPosition(Vector(5.3, -.5));
+        auto* p_body = crate<Touchy<Body>>(Vector(5.3, -.5));
         p_body->setFriction(0);
         p_body->setTurning(turns);
         p_body->setVelocity(Vector(.1, 0));
-        p_body->p_hole = &hole;
-        p_body->p_trigger = all[11];
+        p_body->on_contact = [&hole, p_trigger = all[11]](const Object* p_other) {
+          if (p_other != p_trigger) return;
+          for (Object* p_object : hole) WM.markForDelete(p_object);
+          hole.clear();
+        };
         for (int i = 0; i < 90; ++i) own.world.update();
         EXPECT_TRUE(hole.empty());
         ends[is_dug ? 1 : 0] = p_body->getPosition();

@@ -278,20 +278,6 @@ TEST_F(SoftObjects, RunawaySoftBodyFreezesUntilItIsMoved) {
   EXPECT_NEAR(p_runaway->getNodePosition(0).x(), 35, 0.1);
 }
 
-struct Vandal : Blob {
-  using Blob::Blob;
-  int eventHandler(const Event* p_e) override {
-    if (p_e->getType() != COLLISION_EVENT) return 0;
-    const auto& event = *static_cast<const EventCollision*>(p_e);
-    Object* p_other = event.getObject1() == this ? event.getObject2() : event.getObject1();
-    delete p_other;
-    new Rope(getPosition(), getPosition() + Vector(5, 0));
-    if (suicidal) delete this;
-    return 1;
-  }
-  bool suicidal = false;
-};
-
 TEST_F(SoftObjects, HandlersMayDeleteAnyObject) {
   new Floor(Vector(0, 20));
   new Floor(Vector(0, 25));
@@ -299,24 +285,23 @@ TEST_F(SoftObjects, HandlersMayDeleteAnyObject) {
   p_crate->setPosition(Vector(22, 17));
   auto* p_rope = new Rope(Vector(15, 17), Vector(25, 17));
   p_rope->attach(0, p_crate);
-  new Vandal(Vector(20, 12), 2);
-  auto* p_last = new Vandal(Vector(40, 12), 2);
-  p_last->suicidal = true;
+  for (const double x : {20, 40}) {
+    auto* p_vandal = new test::Touchy<Blob>(Vector(x, 12), 2);
+    p_vandal->on_contact = [p_vandal, x](Object* p_other) {
+      delete p_other;
+      new Rope(p_vandal->getPosition(), p_vandal->getPosition() + Vector(5, 0));
+      if (x == 40) delete p_vandal;
+    };
+  }
   ticks(200);
   EXPECT_EQ(WM.objectsOfType("Floor").getCount(), 0);
 }
 
-struct Spawner : Body {
-  int eventHandler(const Event* p_e) override {
-    if (p_e->getType() == COLLISION_EVENT) new Blob(Vector(50, 5), 2);
-    return 1;
-  }
-};
-
 TEST_F(SoftObjects, HandlerOfABodyMayCreateTheFirstBlob) {
   new Floor(Vector(0, 20));
-  auto* p_body = new Spawner;
+  auto* p_body = new test::Touchy<Body>;
   p_body->setPosition(Vector(20, 15));
+  p_body->on_contact = [](Object* /*p_other*/) { new Blob(Vector(50, 5), 2); };
   ticks(100);
   EXPECT_NE(world.findLayer<naiad::physics::SoftLayer>(), nullptr);
   EXPECT_GT(WM.objectsOfType("Blob").getCount(), 0);
