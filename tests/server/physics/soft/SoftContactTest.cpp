@@ -70,10 +70,7 @@ TEST(SoftContact, CrateLiesOnARopeBridge) {
     rope.drag = 0.02;
     SoftWorld world = test::worldWith(rope, kGravity);
     SoftObstacle crate = test::crateAt(3, cube, {0.2, -1.5}, mass, 1.5);
-    for (int i = 0; i < 1500; ++i) {
-      world.step(1, {&crate, 1});
-      test::advance(crate);
-    }
+    test::stepWith(world, crate, 1500);
     EXPECT_NEAR(-crate.impulse.y / (mass * kGravity), 1, 1e-2) << mass;
     EXPECT_LT(length(crate.velocity), 1e-2) << mass;
     EXPECT_LT((crate.place - Place{}).y + 1, test::nodeAt(world, kBody, 8).y + 0.1) << mass;
@@ -101,10 +98,7 @@ TEST(SoftContact, SoftRigidContactConservesMomentum) {
     return sum;
   };
   const double twist_before = twist();
-  for (int i = 0; i < 100; ++i) {
-    world.step(1, {&crate, 1});
-    test::advance(crate);
-  }
+  test::stepWith(world, crate, 100);
   EXPECT_GT(crate.velocity.x, 0.05);
   EXPECT_LT(length(test::momentumOf(world.body(kBody)) + 7 * crate.velocity - before) / length(before), 1e-9);
   EXPECT_GT(std::fabs(crate.spin), 1e-4);
@@ -174,8 +168,7 @@ TEST(SoftContact, CrateHangsOnARope) {
   const int held = world.attach({kBody, 10, 3, {0, -0.5}});
   ASSERT_GE(held, 0);
   for (int i = 0; i < 300; ++i) {
-    world.step(1, {&crate, 1});
-    test::advance(crate);
+    test::stepWith(world, crate);
     const Vec2 anchor = (crate.place - Place{}) + crate.rotation * Vec2{0, -0.5};
     ASSERT_LT(length(anchor - test::nodeAt(world, kBody, 10)), i < 10 ? 0.12 : 5e-3) << i;
     crate.velocity *= 0.97;
@@ -183,10 +176,7 @@ TEST(SoftContact, CrateHangsOnARope) {
   }
   EXPECT_NEAR(-crate.impulse.y / (10 * kGravity), 1, 0.05);
   ASSERT_TRUE(world.detach(held));
-  for (int i = 0; i < 60; ++i) {
-    world.step(1, {&crate, 1});
-    test::advance(crate);
-  }
+  test::stepWith(world, crate, 60);
   EXPECT_GT((crate.place - Place{}).y, 10);
 }
 

@@ -67,5 +67,12 @@ inline void advance(SoftObstacle& o, double dt = 1) {
   o.place = o.place + o.displacement;
   o.rotation = turned(o.rotation, o.turn);
 }
+/// Runs steps in which the obstacle moves.
+inline void stepWith(SoftWorld& world, SoftObstacle& moving, int ticks = 1) {
+  for (int i = 0; i < ticks; ++i) {
+    world.step(1, {&moving, 1});
+    advance(moving);
+  }
+}
 
 }  // namespace naiad::physics::test
