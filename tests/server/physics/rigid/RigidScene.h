@@ -47,10 +47,15 @@ inline Vec2 whereIs(const RigidWorld& world, int id) {
   return world.body(id).place - Place{};
 }
 
-/// Returns the sum of kinetic and potential energy for a mass of 1 (speeds in cells per tick).
+/// Returns the kinetic energy (speeds in cells per tick).
+inline double kineticOf(const RigidBody& body) {
+  return (body.inverse_mass > 0 ? 0.5 / body.inverse_mass * lengthSquared(body.velocity) : 0) +
+         (body.inverse_inertia > 0 ? 0.5 / body.inverse_inertia * body.spin * body.spin : 0);
+}
+
+/// Returns the sum of kinetic and potential energy for a mass of 1.
 inline double energyOf(const RigidBody& body) {
-  return -kGravityPerTick * (body.place - Place{}).y + 0.5 * lengthSquared(body.velocity) +
-         0.5 / body.inverse_inertia * body.spin * body.spin;
+  return kineticOf(body) - kGravityPerTick * (body.place - Place{}).y;
 }
 
 using Bits = std::array<std::uint64_t, 9>;
@@ -80,13 +85,23 @@ inline RigidWorld onFloor(RigidOptions options = sleepless()) {
 }
 
 /// Adds a slope through the origin as body 0; it descends to the right by `angle`. Returns its upward normal.
-inline Vec2 addSlope(RigidWorld& world, double angle) {
+template <class World>
+Vec2 addSlope(World& world, double angle) {
   const Rotation turn = rotationBy(angle);
   const Vec2 up = turn * Vec2{0, -1};
   RigidBody slope = immovable(-5.0 * up);
   slope.rotation = turn;
   world.add(slope, boxShape(200, 5));
   return up;
+}
+
+/// Adds a crate that lies on the slope whose upward normal is `up`.
+template <class World>
+int addCrateOnSlope(World& world, double angle, Vec2 up) {
+  const ConvexShape crate = boxShape(0.5, 0.25);
+  RigidBody body = movable(0.25 * up, crate);
+  body.rotation = rotationBy(angle);
+  return world.add(body, crate);
 }
 
 }  // namespace naiad::physics::test

@@ -15,14 +15,6 @@ using namespace test;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// Adds a crate that lies on the slope whose upward normal is `up`.
-int addCrateOnSlope(RigidWorld& world, double angle, Vec2 up) {
-  const ConvexShape crate = boxShape(0.5, 0.25);
-  RigidBody body = movable(0.25 * up, crate);
-  body.rotation = rotationBy(angle);
-  return world.add(body, crate);
-}
-
 TEST(RigidWorld, FrictionHoldsUpToItsAngle) {
   for (const double off : {-0.01, 0.01}) {
     RigidWorld world(sleepless());
@@ -379,11 +371,7 @@ TEST(RigidWorld, KineticEnergyNeverGrowsWithoutDrivers) {
     }
     const auto energy = [&] {
       double sum = 0;
-      for (int id = 0; id < count; ++id) {
-        const RigidBody& body = world.body(id);
-        sum += 0.5 / body.inverse_mass * lengthSquared(body.velocity) +
-               0.5 / body.inverse_inertia * body.spin * body.spin;
-      }
+      for (int id = 0; id < count; ++id) sum += kineticOf(world.body(id));
       return sum;
     };
     double most = energy();

@@ -10,11 +10,6 @@ namespace {
 
 using namespace test;
 
-double kineticOf(const RigidBody& body) {
-  return (body.inverse_mass > 0 ? 0.5 / body.inverse_mass * lengthSquared(body.velocity) : 0) +
-         (body.inverse_inertia > 0 ? 0.5 / body.inverse_inertia * body.spin * body.spin : 0);
-}
-
 // Elastic boxes that rotate in a closed room without gravity.
 struct Room : SubstepScene {
   Room(int count, double friction, double most_mass) : SubstepScene(awake()) {

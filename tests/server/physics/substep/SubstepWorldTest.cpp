@@ -279,15 +279,7 @@ TEST(SubstepWorld, FrictionHoldsUpToItsAngle) {
   for (const double off : {-1.0, 1.0}) {
     SubstepScene scene(awake());
     const double angle = std::atan(0.5) + off * std::numbers::pi / 180;
-    const Rotation turn = rotationBy(angle);
-    const Vec2 up = turn * Vec2{0, -1};
-    RigidBody slope = immovable(-5.0 * up);
-    slope.rotation = turn;
-    scene.add(slope, boxShape(200, 5));
-    const ConvexShape crate = boxShape(0.5, 0.25);
-    RigidBody body = movable(0.25 * up, crate);
-    body.rotation = turn;
-    const int id = scene.add(body, crate);
+    const int id = addCrateOnSlope(scene, angle, addSlope(scene, angle));
     scene.ticks(120);
     const double expected = kGravityPerTick * (std::sin(angle) - 0.5 * std::cos(angle)) * 120;
     if (off < 0) {
