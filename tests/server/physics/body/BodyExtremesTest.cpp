@@ -78,19 +78,15 @@ const std::vector<Kind>& kinds() {
   return all;
 }
 
-int hit(Object* p_object, Vector impulse) {
-  if (auto* p_body = dynamic_cast<Body*>(p_object)) return p_body->applyImpulse(impulse);
-  return static_cast<SoftBody*>(p_object)->applyImpulse(impulse);
+// Calls a function with the Body or SoftBody that the Object is.
+template <class Call>
+auto with(Object* p_object, Call call) {
+  if (auto* p_body = dynamic_cast<Body*>(p_object)) return call(*p_body);
+  return call(*static_cast<SoftBody*>(p_object));
 }
 
-int push(Object* p_object, Vector force) {
-  if (auto* p_body = dynamic_cast<Body*>(p_object)) return p_body->applyForce(force);
-  return static_cast<SoftBody*>(p_object)->applyForce(force);
-}
-
-bool isFrozen(const Object* p_object) {
-  if (const auto* p_body = dynamic_cast<const Body*>(p_object)) return p_body->isFrozen();
-  return static_cast<const SoftBody*>(p_object)->isFrozen();
+bool isFrozen(Object* p_object) {
+  return with(p_object, [](const auto& its) { return its.isFrozen(); });
 }
 
 void add(Bits& bits, Vector v) {
@@ -162,7 +158,8 @@ TEST(BodyExtremes, StrongestAllowedImpulseAffectsNoOtherBody) {
       for (int i = 0; i < 12; ++i) hurt.push_back(kind.make(Vector(1.5 * i - 1e8, -40)).front());
       for (std::size_t i = 0; i < hurt.size(); ++i) {
         const double angle = 0.5 * static_cast<double>(i);
-        EXPECT_EQ(hit(hurt[i], Vector(-9e5 * std::fabs(std::cos(angle)), 9e5 * std::sin(angle))), 0);
+        const Vector impulse(-9e5 * std::fabs(std::cos(angle)), 9e5 * std::sin(angle));
+        EXPECT_EQ(with(hurt[i], [&](auto& its) { return its.applyImpulse(impulse); }), 0);
       }
       those.ticks(kTicks);
       Bits bits;
@@ -189,7 +186,7 @@ TEST(BodyExtremes, ExcessiveForceAffectsOnlyItsBody) {
     Object* p_pushed = made.front();
     those.ticks(5);
     const std::uint64_t refusals = those.world.log().refusals();
-    const bool is_taken = push(p_pushed, Vector(1e30, -1e30)) == 0;
+    const bool is_taken = with(p_pushed, [](auto& its) { return its.applyForce(Vector(1e30, -1e30)); }) == 0;
     those.ticks(kTicks - 5);
     const bool is_free = dynamic_cast<const Body*>(p_pushed) != nullptr && made.size() == 1;
     EXPECT_EQ(isFrozen(p_pushed), is_taken && !is_free);
@@ -245,7 +242,7 @@ TEST_P(InOnePlace, HundredsOfBodiesStayBounded) {
     those.ticks(kTicks);
     Bits bits;
     double momentum = 0;
-    for (const Object* p_object : all) {
+    for (Object* p_object : all) {
       const Vector velocity = p_object->getVelocity();
       EXPECT_LT(velocity.getMagnitude(), kFastest);
       EXPECT_FALSE(isFrozen(p_object));
