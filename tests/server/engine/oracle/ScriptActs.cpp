@@ -1,5 +1,4 @@
 // The actions of a random world's scripts, one function each.
-#include <algorithm>
 
 #include "Script.h"
 

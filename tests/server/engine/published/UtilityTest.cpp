@@ -1,7 +1,6 @@
 #include <sstream>
 
 #include "engine/managers/Clock.h"
-#include "engine/managers/LogManager.h"
 #include "engine/published/NetworkNode.h"
 #include "engine/published/StateMachine.h"
 #include "engine/published/utility.h"

@@ -1,5 +1,4 @@
 #include "engine/managers/DisplayManager.h"
-#include "engine/managers/ResourceManager.h"
 #include "engine/sprites/Animation.h"
 #include "tests/server/engine/Probe.h"
 

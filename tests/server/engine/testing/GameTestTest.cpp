@@ -6,7 +6,6 @@
 #include "engine/events/EventMouse.h"
 #include "engine/managers/DisplayManager.h"
 #include "engine/managers/GameManager.h"
-#include "engine/managers/ResourceManager.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/testing/GameTest.h"
 #include "engine/widgets/PlayerObject.h"

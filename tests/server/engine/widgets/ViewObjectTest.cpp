@@ -5,7 +5,6 @@
 #include "engine/widgets/TextBox.h"
 #include "engine/widgets/TextEntry.h"
 #include "engine/widgets/ViewObject.h"
-#include "engine/world/EventPlayer.h"
 #include "tests/server/engine/Probe.h"
 
 namespace df::test {

@@ -1,9 +1,6 @@
 #include <cmath>
 
-#include "engine/events/EventStep.h"
-#include "engine/managers/DisplayManager.h"
 #include "engine/world/Controls.h"
-#include "engine/world/EventPlayer.h"
 #include "engine/world/Player.h"
 #include "tests/server/engine/Probe.h"
 

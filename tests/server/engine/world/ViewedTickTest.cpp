@@ -1,5 +1,3 @@
-#include <map>
-
 #include "engine/events/EventMouse.h"
 #include "engine/world/LagCompensation.h"
 #include "tests/server/engine/Probe.h"

@@ -11,7 +11,6 @@
 #include "host/snapshot/Publisher.h"
 #include "physics/body/Body.h"
 #include "physics/body/BodyLook.h"
-#include "physics/body/PhysicsManager.h"
 #include "shared/replica/Limits.h"
 #include "shared/replica/LookCodec.h"
 #include "tests/server/physics/RandomShapes.h"

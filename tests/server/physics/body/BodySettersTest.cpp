@@ -2,8 +2,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
-#include <iterator>
-#include <limits>
 #include <regex>
 #include <set>
 #include <sstream>

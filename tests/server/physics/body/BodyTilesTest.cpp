@@ -1,7 +1,5 @@
 // Obstacles that touch each other act as one: a body moves over tiles as over a single Object, bit by bit.
 #include <functional>
-#include <memory>
-#include <optional>
 
 #include "physics/geometry/Index.h"
 #include "tests/server/physics/BodyScene.h"

@@ -2,8 +2,6 @@
 // angles.
 #include <gtest/gtest.h>
 
-#include <array>
-
 #include "JointScene.h"
 #include "tests/server/physics/QuadReference.h"
 

@@ -1,5 +1,4 @@
 #include "SoftScene.h"
-#include "physics/soft/SoftForces.h"
 #include "tests/server/physics/RandomShapes.h"
 #include "tests/support/Sanitizers.h"
 

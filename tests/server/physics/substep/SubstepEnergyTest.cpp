@@ -1,7 +1,5 @@
 // Impulses give no energy to a group, except that of drivers and springs.
 
-#include <algorithm>
-
 #include "SubstepScene.h"
 #include "tests/server/physics/SceneRandom.h"
 

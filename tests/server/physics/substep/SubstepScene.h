@@ -1,7 +1,6 @@
 // Scenes in a SubstepWorld: crates of 1 cell, 30 ticks per second, g = 10 cells per second².
 #pragma once
 
-#include <cmath>
 #include <span>
 #include <vector>
 
