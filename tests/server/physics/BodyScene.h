@@ -104,15 +104,36 @@ class BodyScene : public PhysicsWorld {
   }
 };
 
+/// Position, velocity, angle and spin.
+using BodyBits = std::array<std::uint64_t, 6>;
+inline BodyBits stateBits(const Body* p_body) {
+  const Vector place = p_body->getPosition(), velocity = p_body->getVelocity();
+  return std::bit_cast<BodyBits>(
+      std::array{place.x(), place.y(), velocity.x(), velocity.y(), p_body->getAngle(), p_body->getSpin()});
+}
+
 /// A second world, which is current instead of the test's world while this is in scope.
 struct OwnWorld {
-  explicit OwnWorld(double aspect = 1) {
+  explicit OwnWorld(double aspect = 1, Vector gravity = Vector(), Accuracy accuracy = ACCURACY_DEFAULT) {
     world.log().setSink([](const std::string&) {});
     PM.setAspect(aspect);
+    PM.setGravity(gravity);
+    PM.setAccuracy(accuracy);
   }
   OwnWorld(const OwnWorld&) = delete;
   OwnWorld& operator=(const OwnWorld&) = delete;
   ~OwnWorld() { world.shutDown(); }
+  /// Runs some ticks, each after a call of `before` with its number. Returns the bodies' states after each.
+  std::vector<BodyBits> states(int ticks, const std::vector<Body*>& bodies,
+                               const std::function<void(int tick)>& before = {}) {
+    std::vector<BodyBits> all;
+    for (int tick = 0; tick < ticks; ++tick) {
+      if (before) before(tick);
+      world.update();
+      for (const Body* p_body : bodies) all.push_back(stateBits(p_body));
+    }
+    return all;
+  }
 
   World world;
   World::Scope scope{world};
@@ -132,14 +153,6 @@ class FieldOf : public Field {
  private:
   Pull m_pull;
 };
-
-/// Position, velocity, angle and spin.
-using BodyBits = std::array<std::uint64_t, 6>;
-inline BodyBits stateBits(const Body* p_body) {
-  const Vector place = p_body->getPosition(), velocity = p_body->getVelocity();
-  return std::bit_cast<BodyBits>(
-      std::array{place.x(), place.y(), velocity.x(), velocity.y(), p_body->getAngle(), p_body->getSpin()});
-}
 
 /// An Object that calls a function with the other Object when a contact begins. The function may delete both.
 template <class Base>

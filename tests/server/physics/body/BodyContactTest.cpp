@@ -346,11 +346,9 @@ void Crowd::change(Object* p_object) {
 // Bodies and Objects are deleted and changed at random, by the game and by handlers.
 TEST_F(BodyContacts, EveryBeginHasOneEnd) {
   for (int round = 0; round < 16; ++round) {
-    OwnWorld own;
+    OwnWorld own(1, Vector(0, 0.01), round % 2 == 1 ? ACCURACY_FAST : ACCURACY_DEFAULT);
     Crowd crowd;
     crowd.seed = static_cast<std::uint32_t>(round + 1);
-    if (round % 2 == 1) PM.setAccuracy(ACCURACY_FAST);
-    PM.setGravity(Vector(0, 0.01));
     wall(Vector(0, 5), Vector(50, 5));
     for (int tick = 0; tick < 200; ++tick) {
       while (crowd.living.size() < 14) {

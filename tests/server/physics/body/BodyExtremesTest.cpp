@@ -214,12 +214,7 @@ TEST(BodyExtremes, InvalidNumbersAffectNoOtherBody) {
     if (poison == 5) p_bad->setMass(1e30), p_bad->applyForce(Vector(0, 1e30));
     if (poison == 6) p_bad->setSpring(Vector(1e9, 0), 1e30, 1e30);
     if (poison == 7) p_bad->setBox(Box(Vector(), 0, 0)), p_bad->setBoxShape();
-    std::vector<BodyBits> bits;
-    for (int tick = 0; tick < 60; ++tick) {
-      there.world.update();
-      for (const Body* p_crate : crates) bits.push_back(stateBits(p_crate));
-    }
-    return bits;
+    return there.states(60, crates);
   };
   const auto right = run(0);
   for (int poison = 1; poison <= 7; ++poison) EXPECT_EQ(run(poison), right) << poison;

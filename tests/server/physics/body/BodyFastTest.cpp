@@ -50,9 +50,7 @@ TEST_F(BodyFast, RestingCrateGetsOneContactEvent) {
 
 TEST_F(BodyFast, FreeFlightIsEqualAtBothLevels) {
   const auto fly = [](Accuracy accuracy) {
-    OwnWorld own;
-    PM.setGravity(perSecondSquared(Vector(0, 10)));
-    PM.setAccuracy(accuracy);
+    OwnWorld own(1, perSecondSquared(Vector(0, 10)), accuracy);
     wall(Vector(0, 40), Vector(100, 5));
     std::vector<Body*> bodies;
     for (int i = 0; i < 6; ++i) {
@@ -65,12 +63,7 @@ TEST_F(BodyFast, FreeFlightIsEqualAtBothLevels) {
     }
     Body* p_resting = crate(Vector(-50, 34.5));  // has a contact, far from the others
     p_resting->setTurning();
-    std::vector<BodyBits> seen;
-    for (int tick = 0; tick < 60; ++tick) {
-      own.world.update();
-      for (const Body* p_body : bodies) seen.push_back(stateBits(p_body));
-    }
-    return seen;
+    return own.states(60, bodies);
   };
   EXPECT_EQ(fly(ACCURACY_DEFAULT), fly(ACCURACY_FAST));
 }

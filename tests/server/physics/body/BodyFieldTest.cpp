@@ -74,8 +74,7 @@ TEST_F(BodyFields, StiffFieldKeepsEnergyInFlight) {
 TEST_F(BodyFields, SwitchedForceHoldsABodyAtAnyStrength) {
   for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
     for (double strength = 1; strength <= 1e12; strength *= 10) {
-      OwnWorld own;
-      PM.setAccuracy(accuracy);
+      OwnWorld own(1, Vector(), accuracy);
       layFloor();
       const FieldOf field(
           [strength](Vector d, Vector /*velocity*/) { return Vector(-strength * std::tanh(50 * d.x()), 0); });

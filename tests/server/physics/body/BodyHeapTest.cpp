@@ -72,8 +72,7 @@ TEST_F(BodyHeap, FewPlanksInATrayComeToRest) {
   naiad::physics::test::SceneRandom random;
   for (const double length : {2.0, 6.0, 12.0}) {
     for (const double height : {0.1, 0.4}) {
-      OwnWorld own;
-      PM.setGravity(Vector(0, 0.0111));
+      OwnWorld own(1, Vector(0, 0.0111));
       wall(Vector(0, 0.5), Vector(3.5 * length + 1, 0.5));
       for (const double side : {-1.0, 1.0})
         wall(Vector(side * (3.5 * length + 0.5), -10 * length), Vector(0.5, 10 * length));
@@ -121,8 +120,7 @@ std::vector<Body*> cardHouse(int storeys) {
 TEST_F(BodyHeap, CardHousesStandAtBothLevels) {
   for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
     for (int storeys = 2; storeys <= 6; ++storeys) {
-      OwnWorld own;
-      PM.setAccuracy(accuracy);
+      OwnWorld own(1, Vector(), accuracy);
       PM.setObstacleFriction(0.8);
       layFloor(100, 0.5);
       const std::vector<Body*> cards = cardHouse(storeys);

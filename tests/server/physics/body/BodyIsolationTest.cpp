@@ -68,8 +68,7 @@ Pair addOthers(const Others& others) {
 
 // The pairs reach a shared floor in different ticks, because the watched pair falls from a larger height.
 std::vector<BodyBits> bitsOf(Link link, const Others& others, bool shares_floor = false) {
-  OwnWorld own;
-  PM.setGravity(perSecondSquared(Vector(0, 10)));
+  OwnWorld own(1, perSecondSquared(Vector(0, 10)));
   const bool has_others = others.speed != kNobody;
   Pair far;
   if (has_others && others.added == Added::kBefore) far = addOthers(others);
@@ -77,8 +76,7 @@ std::vector<BodyBits> bitsOf(Link link, const Others& others, bool shares_floor 
   const Pair pair = pairAt(Vector(0, shares_floor ? -30 : -2), link);
   if (shares_floor) pair.p_b->setSpin(0.03);  // so that its joint pulls while it falls
   if (has_others && others.added == Added::kAfter) far = addOthers(others);
-  std::vector<BodyBits> bits;
-  for (int tick = 0; tick < kTicks; ++tick) {
+  return own.states(kTicks, {pair.p_a, pair.p_b}, [&](int tick) {
     if (has_others && others.added == Added::kMidway && tick == 20) far = addOthers(others);
     if (others.is_removed && tick == 35) {
       WM.markForDelete(far.p_a);
@@ -87,11 +85,7 @@ std::vector<BodyBits> bitsOf(Link link, const Others& others, bool shares_floor 
     if (others.takes_off && tick == 30) {
       for (Body* p_body : {far.p_a, far.p_b}) p_body->setVelocity(Vector(0, -1));
     }
-    own.world.update();
-    bits.push_back(stateBits(pair.p_a));
-    bits.push_back(stateBits(pair.p_b));
-  }
-  return bits;
+  });
 }
 
 class BodyIsolation : public testing::TestWithParam<std::tuple<Link, Link>> {};
@@ -123,8 +117,7 @@ TEST_P(BodyIsolation, AirbornePairMovesTheSameWhenAnotherTakesOff) {
 
 // Bounces twelve crates, whose solver changes while they are in the air. Far away others bounce, or fly past.
 std::vector<BodyBits> crateBits(int others, Added added, double speed) {
-  OwnWorld own;
-  PM.setGravity(Vector(0, 0.01));
+  OwnWorld own(1, Vector(0, 0.01));
   naiad::physics::test::SceneRandom random;
   const auto addCrates = [](double x, int count, double step, double drop, auto& random_number) {
     BodyScene::wall(Vector(x, 0.5), Vector(50, 0.5));
@@ -144,12 +137,7 @@ std::vector<BodyBits> crateBits(int others, Added added, double speed) {
   if (added == Added::kBefore) addFar();
   const std::vector<Body*> crates = addCrates(0, 12, 2.5, 2, random);
   if (added == Added::kAfter) addFar();
-  std::vector<BodyBits> bits;
-  for (int tick = 0; tick < 80; ++tick) {
-    own.world.update();
-    for (const Body* p_body : crates) bits.push_back(stateBits(p_body));
-  }
-  return bits;
+  return own.states(80, crates);
 }
 
 TEST(BodyIsolationOfCrates, CratesDoNotDependOnWhichGroupCameFirst) {
@@ -178,15 +166,10 @@ TEST(BodyIsolationOfChanges, ChangedStackMovesTheSameBesideManyChangedBodies) {
     BodyScene::wall(Vector(0, 5), Vector(50, 5));
     const Pair stack = {BodyScene::turningCrate(Vector(0, -0.5)), BodyScene::turningCrate(Vector(0.3, -1.5))};
     changed.push_back(stack.p_b);
-    std::vector<BodyBits> bits;
-    for (int tick = 0; tick < 30; ++tick) {
-      if (tick == 20) {
-        for (Body* p_body : changed) p_body->setVelocity(Vector(0.01, 0));
-      }
-      own.world.update();
-      for (const Body* p_body : {stack.p_a, stack.p_b}) bits.push_back(stateBits(p_body));
-    }
-    return bits;
+    return own.states(30, {stack.p_a, stack.p_b}, [&](int tick) {
+      if (tick != 20) return;
+      for (Body* p_body : changed) p_body->setVelocity(Vector(0.01, 0));
+    });
   };
   EXPECT_EQ(bitsBeside(600), bitsBeside(0));
 }
@@ -194,8 +177,7 @@ TEST(BodyIsolationOfChanges, ChangedStackMovesTheSameBesideManyChangedBodies) {
 // A platform does not connect the groups on it. When it moves off, each of them starts again by itself.
 TEST(BodyIsolationOfChanges, StackMovesTheSameBesideOthersOnAPlatform) {
   const auto bitsBeside = [](int others) {
-    OwnWorld own;
-    PM.setGravity(Vector(0, 0.01));
+    OwnWorld own(1, Vector(0, 0.01));
     Body* p_platform = BodyScene::crate(Vector(0, 0.5), Vector(100, 0.5));
     p_platform->setKinematic();
     std::vector<Body*> stack;
@@ -205,13 +187,9 @@ TEST(BodyIsolationOfChanges, StackMovesTheSameBesideOthersOnAPlatform) {
         if (i == 0) stack.push_back(p_crate);
       }
     }
-    std::vector<BodyBits> bits;
-    for (int tick = 0; tick < 40; ++tick) {
+    return own.states(40, stack, [&](int tick) {
       if (tick == 20) p_platform->setVelocity(Vector(0.05, -0.02));
-      own.world.update();
-      for (const Body* p_body : stack) bits.push_back(stateBits(p_body));
-    }
-    return bits;
+    });
   };
   EXPECT_EQ(bitsBeside(3), bitsBeside(0));
 }

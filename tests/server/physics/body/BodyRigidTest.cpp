@@ -129,8 +129,7 @@ TEST_F(BodyRigids, HeavyBodyPushesARowOfCrates) {
     for (const int count : {3, 5}) {
       for (const bool is_box : {false, true}) {
         for (const double restitution : {0.0, 0.3}) {
-          OwnWorld own;
-          PM.setGravity(Vector(0, 0.01));
+          OwnWorld own(1, Vector(0, 0.01));
           wall(Vector(0, 0.5), Vector(500, 0.5));
           std::vector<Body*> crates;
           for (int i = 0; i < count; ++i) crates.push_back(turningCrate(Vector(1.1 * i, -0.5)));

@@ -162,8 +162,7 @@ TEST_F(Bodies, ExcessiveForceIsClampedToMaximumSpeed) {
 TEST_F(Bodies, ASceneFarAwayMovesAsAtTheOrigin) {
   const test::FieldOf planet = planetOf(0.1);
   const auto fly = [&](Vector offset) {
-    test::OwnWorld there(2);
-    PM.setGravity(Vector(0, 0.0321));
+    test::OwnWorld there(2, Vector(0, 0.0321));
     auto* p_body = new Body;
     static_cast<Object*>(p_body)->setPosition(offset + Vector(0.25, 0.125));
     p_body->setVelocity(Vector(0.1, -0.7));

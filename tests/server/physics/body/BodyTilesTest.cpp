@@ -56,9 +56,7 @@ struct TileScene {
 
 // Moves a box over obstacles, to which gravity presses it.
 Path pathOver(const TileScene& scene, const TileCase& its) {
-  OwnWorld own(its.aspect);
-  PM.setAccuracy(its.accuracy);
-  PM.setGravity(scene.gravity);
+  OwnWorld own(its.aspect, scene.gravity, its.accuracy);
   PM.setObstacleFriction(its.friction);
   scene.build();
   auto* p_body = new Body;
@@ -68,14 +66,10 @@ Path pathOver(const TileScene& scene, const TileCase& its) {
   p_body->setFriction(its.friction);
   p_body->setTurning(its.turns);
   p_body->setVelocity(Vector(its.push.speed * scene.along.x(), its.push.speed * scene.along.y()));
-  Path path;
-  for (int i = 0; i < scene.ticks; ++i) {
+  return own.states(scene.ticks, {p_body}, [&](int /*tick*/) {
     if (its.push.force > 0)
       p_body->applyForce(Vector(its.push.force * scene.along.x(), its.push.force * scene.along.y()));
-    own.world.update();
-    path.push_back(stateBits(p_body));
-  }
-  return path;
+  });
 }
 bool areSame(TileScene scene, const TileCase& its, const Build& tiles) {
   const Path one = pathOver(scene, its);
@@ -213,9 +207,7 @@ TEST_F(BodyTiles, OnlyTheSurfaceMatters) {
 // Merged bodies keep their own friction.
 TEST_F(BodyTiles, KinematicTilesKeepTheirFriction) {
   for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
-    OwnWorld own;
-    PM.setAccuracy(accuracy);
-    PM.setGravity(Vector(0, .01));
+    OwnWorld own(1, Vector(0, .01), accuracy);
     for (int i = 0; i < 40; ++i) {
       auto* p_tile = crate(Vector(i + .5, .5));
       p_tile->setKinematic();
@@ -246,9 +238,7 @@ TEST_F(BodyTiles, EachTileHasItsOwnContact) {
     failures += forAll([is_kinematic](const TileCase& its) {
       if (its.push.speed == 0 || its.friction > 0) return true;
       if (is_kinematic && its.accuracy == ACCURACY_DEFAULT && !its.turns) return true;  // for an ImpactWorld
-      OwnWorld own(its.aspect);
-      PM.setAccuracy(its.accuracy);
-      PM.setGravity(Vector(0, .01));
+      OwnWorld own(its.aspect, Vector(0, .01), its.accuracy);
       if (!is_kinematic) tiles(0, 0, 100, 1);
       for (int i = 0; i < 100 && is_kinematic; ++i) crate(Vector(i + .5, .5))->setKinematic();
       auto* p_body = new Listener;
@@ -293,8 +283,7 @@ TEST_F(BodyTiles, EachBounceBeginsAndEndsAContact) {
 // Begin and end events alternate, also in the tick in which a tile moves into its neighbour and the body.
 TEST_F(BodyTiles, EventsAlternateWhenATileMoves) {
   for (int i = 0; i < 400; ++i) {
-    OwnWorld own;
-    PM.setAccuracy(ACCURACY_FAST);
+    OwnWorld own(1, Vector(), ACCURACY_FAST);
     PM.setObstacleFriction(0);
     wall(Vector(0, .25), Vector(.25, .25));
     wall(Vector(.5, .25), Vector(.25, .25));
@@ -315,9 +304,7 @@ TEST_F(BodyTiles, EventsAlternateWhenATileMoves) {
 TEST_F(BodyTiles, ABodyFallsWhenItsTileGoes) {
   for (const bool turns : {false, true}) {
     for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
-      OwnWorld own;
-      PM.setAccuracy(accuracy);
-      PM.setGravity(Vector(0, .01));
+      OwnWorld own(1, Vector(0, .01), accuracy);
       std::vector<Object*> all;
       for (int i = 0; i < 40; ++i) all.push_back(block(i, 0, 1, 1));
       Body* p_body = crate(Vector(20.5, -.5), Vector(.3, .5));
@@ -340,9 +327,7 @@ TEST_F(BodyTiles, AHoleAppearsWhenAHandlerMakesIt) {
     for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
       std::array<Vector, 2> ends;
       for (const bool is_dug : {false, true}) {
-        OwnWorld own;
-        PM.setAccuracy(accuracy);
-        PM.setGravity(Vector(0, .01));
+        OwnWorld own(1, Vector(0, .01), accuracy);
         PM.setObstacleFriction(0);
         std::vector<Object*> all, hole;
         for (int i = 0; i < 40; ++i) all.push_back(block(i, 0, 1, 1));
