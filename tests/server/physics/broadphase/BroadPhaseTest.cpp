@@ -7,8 +7,7 @@
 namespace naiad::physics {
 namespace {
 
-using test::anyVec;
-using test::between;
+using namespace test;
 
 // Bodies that fly in a field, some of them at rest, with their entries in the broad phase.
 struct Body {

@@ -10,10 +10,7 @@
 namespace naiad::physics {
 namespace {
 
-using test::anyRotation;
-using test::anyShape;
-using test::anyVec;
-using test::between;
+using namespace test;
 
 constexpr double kPi = df::math::kPi;
 

@@ -10,11 +10,7 @@
 namespace naiad::physics {
 namespace {
 
-using test::anyRotation;
-using test::anyShape;
-using test::anyVec;
-using test::between;
-using test::boxShape;
+using namespace test;
 
 double smallest(const Manifold& m) {
   return m.count == 2 ? std::min(m.points[0].separation, m.points[1].separation) : m.points[0].separation;

@@ -7,10 +7,7 @@ namespace naiad::physics {
 namespace {
 
 using naiad::test::kShare;
-using test::anyRotation;
-using test::anyShape;
-using test::anyVec;
-using test::between;
+using namespace test;
 
 struct Scene {
   ConvexShape a, b;

@@ -6,10 +6,7 @@
 namespace naiad::physics {
 namespace {
 
-using test::jointOf;
-using test::JointScene;
-using test::kDown;
-using test::kTick;
+using namespace test;
 
 TEST(RigidJoint, WeldMakesOneBodyOfTwo) {
   JointScene scene;
@@ -30,7 +27,7 @@ TEST(RigidJoint, WeldMakesOneBodyOfTwo) {
 }
 
 TEST(RigidJoint, SliderAllowsOneDirectionAndNoRotation) {
-  JointScene scene = test::nailed();
+  JointScene scene = nailed();
   scene.rigid({0, 0}, 1, 1);
   const Joint slider = jointOf(JointKind::kSlider, 0, 1, {.axis = {0.8, 0.6}});
   scene.join(slider);
@@ -46,7 +43,7 @@ TEST(RigidJoint, SliderAllowsOneDirectionAndNoRotation) {
 }
 
 TEST(RigidJoint, MotorReachesItsSpeedWithItsTorque) {
-  JointScene scene = test::nailed();
+  JointScene scene = nailed();
   scene.rigid({0, 0}, 1, 2);
   scene.join(JointKind::kHinge, 0, 1);
   scene.join(jointOf(JointKind::kMotor, 0, 1, {.speed = 5 * kTick, .max_force = 4 * kTick * kTick}));
@@ -57,7 +54,7 @@ TEST(RigidJoint, MotorReachesItsSpeedWithItsTorque) {
 }
 
 TEST(RigidJoint, AngleLimitsStopBothWays) {
-  JointScene scene = test::nailed();
+  JointScene scene = nailed();
   scene.rigid({1, 0}, 1, 0.1);
   scene.joinAt(JointKind::kHinge, 0, 1, {0, 0});
   scene.join(jointOf(JointKind::kAngleLimit, 0, 1, {.lower = -0.5, .upper = 0.7}));
@@ -82,7 +79,7 @@ TEST(RigidJoint, SpringFollowsTheDampedCosine) {
     double bound;
   } kCases[] = {{4, 0, 300, 1e-3}, {25, 2, 150, 2e-3}};
   for (const auto& its : kCases) {
-    JointScene scene = test::nailed();
+    JointScene scene = nailed();
     scene.point({3, 0});
     const double stiffness = its.stiffness * kTick * kTick, damping = its.damping * kTick;
     scene.join(jointOf(JointKind::kSpring, 0, 1, {.length = 2, .stiffness = stiffness, .damping = damping}));
@@ -102,7 +99,7 @@ TEST(RigidJoint, SpringEnergyStaysBoundedAtAnyStiffness) {
   for (const double stiffness : {1e2, 1e4, 1e6, 1e8, 1e10}) {
     for (const double damping : {0.0, 0.1 * std::sqrt(stiffness), 10 * std::sqrt(stiffness)}) {
       for (const double rest : {0.0, 1.0}) {
-        JointScene scene = test::nailed();
+        JointScene scene = nailed();
         scene.point({1.1, 0});
         scene.point({2.1, 0}, 0.01);
         for (int i = 0; i < 2; ++i) {
@@ -141,7 +138,7 @@ TEST(RigidJoint, MouseDragsWithAtMostItsForce) {
 }
 
 TEST(RigidJoint, JointForceIsTheWeightAndOverloadBreaks) {
-  JointScene scene = test::nailed();
+  JointScene scene = nailed();
   scene.point({0, 1}, 0.5);
   scene.join(jointOf(JointKind::kDistance, 0, 1, {.length = 1, .break_force = 25 * kTick * kTick}));
   scene.point({0, 2}, 1 / 0.4);
@@ -162,7 +159,7 @@ TEST(RigidJoint, JointForceIsTheWeightAndOverloadBreaks) {
 }
 
 TEST(RigidJoint, MovingAnchorCarriesItsPendulum) {
-  JointScene scene = test::nailed();
+  JointScene scene = nailed();
   scene.point({0, 1});
   scene.join(JointKind::kDistance, 0, 1, 1);
   scene.setVelocity(0, {2, 0});
@@ -174,7 +171,7 @@ TEST(RigidJoint, MovingAnchorCarriesItsPendulum) {
 
 TEST(RigidJoint, InvalidJointsAreRefused) {
   const auto refused = [](const auto& change) {
-    JointScene scene = test::nailed();
+    JointScene scene = nailed();
     scene.point({1, 0});
     Joint joint = jointOf(JointKind::kDistance, 0, 1, {.length = 1});
     change(joint);

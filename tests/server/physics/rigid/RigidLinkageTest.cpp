@@ -7,11 +7,7 @@
 namespace naiad::physics {
 namespace {
 
-using test::jointOf;
-using test::JointScene;
-using test::kDown;
-using test::kTick;
-using test::SceneRandom;
+using namespace test;
 
 // Makes a tree of `count` bodies, free or hung on an immovable one, with random hard joints. If `is_bounded`,
 // a rope that never becomes taut makes RigidDirect solve it.
@@ -70,7 +66,7 @@ TEST(RigidLinkage, RandomLoopsKeepTheirJoints) {
   SceneRandom random;
   for (int round = 0; round < 30; ++round) {
     const int count = 4 + random.below(8);
-    JointScene scene = test::nailed();
+    JointScene scene = nailed();
     for (int i = 1; i < count; ++i) {  // the bodies of a closed chain
       const double angle = 2 * std::acos(-1.0) * i / count;
       scene.point({2 * std::cos(angle) - 2, 2 * std::sin(angle)}, random.between(0.3, 3));
@@ -116,7 +112,7 @@ TEST(RigidLinkage, HundredLinkedBodiesKeepTheirMomentum) {
 }
 
 TEST(RigidLinkage, RedundantRowsDoNoHarm) {
-  JointScene scene = test::nailed();
+  JointScene scene = nailed();
   scene.rigid({1, 0}, 1, 0.2);
   for (int i = 0; i < 3; ++i) scene.joinAt(JointKind::kHinge, 0, 1, {0, 0});
   scene.join(JointKind::kDistance, 0, 1, 1);
@@ -130,7 +126,7 @@ TEST(RigidLinkage, RedundantRowsDoNoHarm) {
 }
 
 TEST(RigidLinkage, ContradictionsStayBoundedAndAreCounted) {
-  JointScene scene = test::nailed();
+  JointScene scene = nailed();
   scene.point({1, 0});
   scene.point({2.5, 0}, 0);
   scene.join(JointKind::kDistance, 0, 1, 1);
@@ -164,7 +160,7 @@ TEST(RigidLinkage, FortyLegsOnOneBodyHold) {
 TEST(RigidLinkage, ExtremeMassesAndForcesStayFinite) {
   for (const double mass : {1e-12, 1e-6, 1e6, 1e12}) {
     for (const double gravity : {1e-6, 1.0, 1e4, 1e8}) {
-      JointScene scene = test::ropeOf(6, mass);
+      JointScene scene = ropeOf(6, mass);
       for (int i = 0; i < 20; ++i) scene.step({0, gravity});
       for (int id = 0; id <= 6; ++id) {
         ASSERT_TRUE(isFinite(scene.velocity(id))) << mass << " " << gravity;
@@ -177,7 +173,7 @@ TEST(RigidLinkage, ExtremeMassesAndForcesStayFinite) {
 // A fast and heavy linkage far away changes nothing.
 TEST(RigidLinkage, MovesTheSameBesideAnother) {
   for (const double speed : {0.0, 1e4}) {
-    JointScene alone = test::ropeOf(10, 10), beside = test::ropeOf(10, 10);
+    JointScene alone = ropeOf(10, 10), beside = ropeOf(10, 10);
     const int far = beside.point({2000, 0});
     beside.rigid({2001, 0}, 1e6, 1);
     beside.joinAt(JointKind::kHinge, far, far + 1, {2000, 0});
@@ -196,7 +192,7 @@ TEST(RigidLinkage, MovesTheSameBesideAnother) {
 
 // Bodies of a linkage get shapes when something may touch them, and lose them again.
 TEST(RigidLinkage, ChangesOfTheGroupAreFollowed) {
-  JointScene scene = test::ropeOf(5, 1);
+  JointScene scene = ropeOf(5, 1);
   for (int i = 0; i < 10; ++i) scene.step(kDown);
   const auto substeps = scene.world.linkageCounters().substeps;
   const int mouse = scene.join(jointOf(JointKind::kMouse, -1, 3, {.stiffness = 0.1}));

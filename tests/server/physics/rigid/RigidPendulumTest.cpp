@@ -8,9 +8,7 @@
 namespace naiad::physics {
 namespace {
 
-using test::JointScene;
-using test::kDown;
-using test::kTick;
+using namespace test;
 
 // Returns the period 4·√(L/g)·K(sin(θ₀/2)), with K by the arithmetic-geometric mean.
 double periodOf(double length, double g, double start) {
@@ -53,7 +51,7 @@ Swing swingOf(JointScene& scene, int ticks) {
 
 TEST(RigidPendulum, KeepsEnergyLengthAndPeriodForAMinute) {
   for (const bool is_hinged : {false, true}) {
-    JointScene scene = test::nailed();
+    JointScene scene = nailed();
     if (is_hinged) {
       scene.rigid({1, 0}, 2, 0.5);  // I/m·r + r = 1.25 is the equivalent length
       scene.joinAt(JointKind::kHinge, 0, 1, {0, 0});
@@ -73,10 +71,10 @@ TEST(RigidPendulum, KeepsEnergyLengthAndPeriodForAMinute) {
 
 // A pendulum whose angle is limited, far from its limits, is solved by RigidDirect, with fewer sub-steps.
 TEST(RigidPendulum, SwingsBetweenAngleLimitsWithoutLoss) {
-  JointScene scene = test::nailed();
+  JointScene scene = nailed();
   scene.rigid({1, 0}, 2, 0.5);
   scene.joinAt(JointKind::kHinge, 0, 1, {0, 0});
-  Joint limit = test::jointOf(JointKind::kAngleLimit, 0, 1, {.lower = -3, .upper = 3});
+  Joint limit = jointOf(JointKind::kAngleLimit, 0, 1, {.lower = -3, .upper = 3});
   limit.reference = {0, 1};
   scene.join(limit);
   const Swing swing = swingOf(scene, 1800);
@@ -97,7 +95,7 @@ TEST(RigidPendulum, DoublePendulumMatchesTheAngleEquations) {
   const auto angles = quadSolve<4>(rates, 0, 5, {acosq(0), acosq(0), 0, 0}, 1000);
   const Vec2 end = {static_cast<double>(sinq(angles[0]) + sinq(angles[1])),
                     static_cast<double>(cosq(angles[0]) + cosq(angles[1]))};
-  JointScene scene = test::ropeOf(2, 1);
+  JointScene scene = ropeOf(2, 1);
   for (int i = 0; i < 150; ++i) {
     scene.step(kDown);
     EXPECT_LE(std::abs(scene.energy(kDown)) / 30, 1e-9);

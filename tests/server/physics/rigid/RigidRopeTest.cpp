@@ -6,9 +6,7 @@
 namespace naiad::physics {
 namespace {
 
-using test::JointScene;
-using test::kDown;
-using test::ropeOf;
+using namespace test;
 
 TEST(RigidRope, WeightedRopeKeepsLengthAndEnergy) {
   for (const double ratio : {1.0, 100.0, 1000.0}) {
@@ -48,8 +46,7 @@ TEST(RigidRope, FreeRopeFallsAtG) {
       const double mass = 20 + ratio;
       for (int i = 1; i <= 150; ++i) {
         scene.step(kDown);
-        ASSERT_NEAR(scene.momentum().y / mass, blow / mass + 10 * test::kTick * i, 1e-9 * i)
-            << ratio << " " << i;
+        ASSERT_NEAR(scene.momentum().y / mass, blow / mass + 10 * kTick * i, 1e-9 * i) << ratio << " " << i;
         ASSERT_LE(scene.worstGap(), 1e-6) << ratio << " " << i;
       }
     }
@@ -57,7 +54,7 @@ TEST(RigidRope, FreeRopeFallsAtG) {
 }
 
 TEST(RigidRope, PullsButDoesNotPush) {
-  JointScene scene = test::nailed();
+  JointScene scene = nailed();
   scene.point({0, 0.5});
   scene.join(JointKind::kRope, 0, 1, 2);
   scene.step(kDown);
@@ -77,7 +74,7 @@ TEST(RigidRope, PullsButDoesNotPush) {
 // A rope that is just taut, or slack by rounding, bends the path of its end from the first sub-step on.
 TEST(RigidRope, TautRopeTurnsItsEndWhateverTheRounding) {
   const auto endAfter = [](double slack, double speed) {
-    JointScene scene = test::nailed();
+    JointScene scene = nailed();
     scene.point({1, 0});
     scene.setVelocity(1, {speed, 3});
     scene.join(JointKind::kRope, 0, 1, 1 + slack);
