@@ -170,26 +170,6 @@ TEST(RigidLinkage, ExtremeMassesAndForcesStayFinite) {
   }
 }
 
-// A fast and heavy linkage far away changes nothing.
-TEST(RigidLinkage, MovesTheSameBesideAnother) {
-  for (const double speed : {0.0, 1e4}) {
-    JointScene alone = ropeOf(10, 10), beside = ropeOf(10, 10);
-    const int far = beside.point({2000, 0});
-    beside.rigid({2001, 0}, 1e6, 1);
-    beside.joinAt(JointKind::kHinge, far, far + 1, {2000, 0});
-    beside.setVelocity(far + 1, {0, speed}, 3);
-    for (int i = 0; i < 100; ++i) {
-      alone.step(kDown);
-      beside.step(kDown);
-      if (i == 50) beside.world.remove(far + 1);
-    }
-    for (int id = 0; id <= 10; ++id) {
-      EXPECT_EQ(alone.body(id).place, beside.body(id).place) << speed << " " << id;
-      EXPECT_EQ(alone.body(id).velocity, beside.body(id).velocity) << speed << " " << id;
-    }
-  }
-}
-
 // Bodies of a linkage get shapes when something may touch them, and lose them again.
 TEST(RigidLinkage, ChangesOfTheGroupAreFollowed) {
   JointScene scene = ropeOf(5, 1);
