@@ -31,22 +31,14 @@ TEST_F(HighScoresTest, BestScoresComeFirstThenOldest) {
   EXPECT_TRUE(HighScores("other").best().empty());
 }
 
-/// Records the size of a score table in each step.
-struct Watcher : Object {
-  std::vector<std::size_t> sizes;
-  Watcher() { registerInterest(STEP_EVENT); }
-  int eventHandler(const Event* /*p_e*/) override {
-    sizes.push_back(HighScores("arcade").best().size());
-    return 1;
-  }
-};
-
 TEST_F(HighScoresTest, StoredScoresLoadFirstAndAreNotAddedAgain) {
-  Watcher watcher;
+  std::vector<std::size_t> sizes;  // of the table in each step
+  test::Probe watcher;
+  watcher.hear(STEP_EVENT, [&](test::Probe&, const Event&) { sizes.push_back(scores.best().size()); });
   keep("arcade", "ann", 5);
   keep("arcade", "bob", 6);
   world.tick();
-  EXPECT_EQ(watcher.sizes, std::vector<std::size_t>{2});
+  EXPECT_EQ(sizes, std::vector<std::size_t>{2});
   EXPECT_TRUE(taken().empty());
 }
 
@@ -135,19 +127,13 @@ TEST(HighScoresInGameTest, GameTestAddsAndReadsStoredScores) {
   EXPECT_TRUE(game.shows("best ann 501")) << game.picture();
 }
 
-struct BestSign : Object {
-  BestSign() { setPosition(Vector(10, 10)); }
-  int draw() override {
-    for (const HighScore& best : HighScores("arcade").best(1))
-      DM.drawString(getPosition(), "best " + best.name + " " + std::to_string(best.points), LEFT_JUSTIFIED,
-                    RED);
-    return 0;
-  }
-};
-
 int watchingMain() {
   GM.startUp();
-  new BestSign;
+  (new test::Probe("sign", nullptr, Vector(10, 10)))->on_draw = [](test::Probe& sign) {
+    for (const HighScore& best : HighScores("arcade").best(1))
+      DM.drawString(sign.getPosition(), "best " + best.name + " " + std::to_string(best.points),
+                    LEFT_JUSTIFIED, RED);
+  };
   GM.run();
   GM.shutDown();
   return 0;

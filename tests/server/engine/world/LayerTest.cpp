@@ -30,6 +30,13 @@ class Falling : public Layer {
   std::vector<ObjectKey> bodies;
 };
 
+/// A layer whose step is a function.
+struct StepLayer : Layer {
+  explicit StepLayer(std::function<void(World&)> its_step) : on_step(std::move(its_step)) {}
+  void step(World& world) override { on_step(world); }
+  std::function<void(World&)> on_step;
+};
+
 class Layers : public test::WorldTest {
  protected:
   Layers() {
@@ -77,30 +84,12 @@ TEST_F(Layers, ABodyBlocksOthers) {
 }
 
 TEST_F(Layers, StepMarkedObjectIsDeletedInTheSameUpdate) {
-  class Reaper : public Layer {
-   public:
-    void step(World& world) override {
-      for (const ObjectKey key : doomed) world.objects().markForDelete(world.store().find(key));
-    }
-    std::vector<ObjectKey> doomed;
-  };
-  world.addLayer(std::make_unique<Reaper>());
-  auto* p_body = new Object;
-  const ObjectKey key = p_body->key();
-  world.findLayer<Reaper>()->doomed.push_back(key);
+  const ObjectKey key = (new Object)->key();
+  world.addLayer(
+      std::make_unique<StepLayer>([key](World& its) { its.objects().markForDelete(its.store().find(key)); }));
   world.update();
   EXPECT_EQ(world.store().find(key), nullptr);
 }
-
-/// Notes its steps.
-class NotingLayer : public Layer {
- public:
-  explicit NotingLayer(test::Received& words) : m_words(words) {}
-  void step(World& /*world*/) override { m_words.push_back("layer"); }
-
- private:
-  test::Received& m_words;
-};
 
 class TickAlone : public test::WorldTest {
  protected:
@@ -108,7 +97,7 @@ class TickAlone : public test::WorldTest {
     probe.registerInterest(STEP_EVENT);
     probe.registerInterest(KEYBOARD_EVENT);
     probe.on_draw = [this](test::Probe&) { received.push_back("draw"); };
-    world.addLayer(std::make_unique<NotingLayer>(received));
+    world.addLayer(std::make_unique<StepLayer>([this](World& /*its*/) { received.push_back("layer"); }));
     ann = joined("ann");
     received.clear();
   }
