@@ -5,8 +5,7 @@
 // the motion of a rigid body with the group's momentum and angular momentum, or to the world if an immovable
 // body pushed the group. So contacts do not approach again, and the impulses that carry a pile remain. In a
 // group with joints, light bodies may gain what a heavy one loses. There, the factor reduces the velocity
-// changes of the stage. Each group is checked alone, in its own frame, so that groups do not influence each
-// other.
+// changes of the stage. Groups do not influence each other: each is checked alone, in its own frame.
 #pragma once
 
 #include <cstdint>
