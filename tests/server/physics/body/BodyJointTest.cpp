@@ -1,6 +1,4 @@
 // Jointed bodies through WM.update(). The bounds are the targets of the laboratory (docs/physics/lab.md).
-#include <limits>
-
 #include "tests/server/physics/BodyScene.h"
 
 namespace df::test {
@@ -14,39 +12,6 @@ Body* point(Vector place, double mass = 1) {
   p_point->setPosition(place);
   p_point->setMass(mass);
   return p_point;
-}
-
-// Problem 4, up to the stiffness at which a double still resolves the phase.
-TEST_F(BodyJoints, AStiffSpringIsExactAtAnyStiffness) {
-  PM.setGravity(perSecondSquared(Vector(0, 10)));
-  for (const double stiffness : {1e2, 1e6, 1e10}) {
-    for (const double zeta : {0.0, 0.05, 1.0, 2.0}) {
-      const double rest = 10 / stiffness, omega = std::sqrt(stiffness), decay = zeta * omega;
-      Body* p_body = point(Vector(0, 10 + rest + 1));
-      PM.addSpring(nullptr, p_body, Vector(), p_body->getPosition(), perSecondSquared(stiffness),
-                   perSecond(2 * decay))
-          .setLength(10);
-      const double bound = 1e-11 + 4 * std::numeric_limits<double>::epsilon() * omega * 10;
-      for (int tick = 1; tick <= 300; ++tick) {
-        ticks(1);
-        const long double t = tick / 30.0L;
-        long double part = 0;
-        if (zeta < 1) {
-          const long double w = std::sqrt(static_cast<long double>(stiffness) - decay * decay);
-          part = std::exp(-decay * t) * (std::cos(w * t) + decay / w * std::sin(w * t));
-        } else if (zeta == 1) {
-          part = std::exp(-decay * t) * (1 + decay * t);
-        } else {
-          const long double root = std::sqrt(static_cast<long double>(decay) * decay - stiffness);
-          const long double fast = decay + root, slow = stiffness / fast;
-          part = (fast * std::exp(-slow * t) - slow * std::exp(-fast * t)) / (2 * root);
-        }
-        ASSERT_NEAR(p_body->getPosition().y(), static_cast<double>(10 + rest + part), bound)
-            << stiffness << " " << zeta << " " << tick;
-      }
-      delete p_body;
-    }
-  }
 }
 
 TEST_F(BodyJoints, SwingingSpringKeepsItsEnergy) {

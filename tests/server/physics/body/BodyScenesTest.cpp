@@ -330,22 +330,6 @@ TEST_F(BodyScenes, StickAndSlipStaysBounded) {
   }
 }
 
-TEST_F(BodyScenes, ZigzagStackStands) {
-  layFloor(50, 0.5);
-  for (const int count : {20, 40, 60}) {
-    for (int i = 0; i < count; ++i) {
-      put(turningCrate(Vector(i % 2 == 0 ? -0.025 : 0.025, -0.5 - i)));
-      bodies.back()->setFriction(0.6);
-    }
-    ticks(300);
-    for (int i = 0; i < count; ++i) {
-      EXPECT_NEAR(bodies[static_cast<std::size_t>(i)]->getPosition().y(), -0.5 - i, 0.05)
-          << count << ' ' << i;
-    }
-    deleteBodies();
-  }
-}
-
 // The floor supports the whole width of the box, at any speed.
 TEST_F(PulledBox, FastSlidingBoxDoesNotSinkIntoTheFloor) {
   for (double k = 0.01; k <= 2; k *= 1.1) {  // up to 1.4 times its width per tick
