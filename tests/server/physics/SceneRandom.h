@@ -1,6 +1,8 @@
 // Simple random numbers, only for the scenes of tests.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace naiad::physics::test {
@@ -13,6 +15,11 @@ struct SceneRandom {
   }
   double between(double low, double high) { return low + (high - low) * (*this)(); }
   int below(int n) { return static_cast<int>((*this)() * n); }
+  template <class... Values>
+  double oneOf(Values... values) {
+    const std::array all = {static_cast<double>(values)...};
+    return all.at(static_cast<std::size_t>(below(static_cast<int>(all.size()))));
+  }
 };
 
 }  // namespace naiad::physics::test

@@ -13,7 +13,7 @@ using namespace test;
 // A crate that hangs on a fixed point, the nail.
 struct Hanging : SubstepScene {
   explicit Hanging(Vec2 where, double spin = 0) : SubstepScene(awake()) {
-    nail = world.addInOrder(++order, immovable({0, 0}), {});
+    nail = addNail();
     RigidBody body = movable(where, crate_shape);
     body.spin = spin;
     crate = add(body, crate_shape);
@@ -59,12 +59,7 @@ TEST(SubstepJoints, ARopeOnlyPulls) {
   scene.ticks(10);  // the rope is slack, so that the crate falls freely
   EXPECT_NEAR(scene.at(scene.crate).y, 0.5 + 0.5 * kGravityPerTick * 100, 0.1 * kGravityPerTick * 100);
   EXPECT_NEAR(scene.body().velocity.y, 10 * kGravityPerTick, 1e-6);
-  double farthest = 0;
-  for (int tick = 0; tick < 200; ++tick) {
-    scene.ticks(1);
-    farthest = std::max(farthest, scene.gap(rope));
-  }
-  EXPECT_LE(farthest, 2.01);
+  EXPECT_LE(scene.most(200, [&] { return scene.gap(rope); }), 2.01);
   EXPECT_NEAR(scene.at(scene.crate).y, 2, 0.01);
   EXPECT_NEAR(scene.world.joint(rope).force.y, -kGravityPerTick, 0.02 * kGravityPerTick);
 }
@@ -139,7 +134,7 @@ TEST(SubstepJoints, ChainOfSpringsStaysBounded) {
         for (int exponent = 0; exponent <= 12; exponent += 2) {
           SCOPED_TRACE(testing::Message() << count << ' ' << length << ' ' << ratio << " 1e" << exponent);
           SubstepScene scene(awake());
-          int last = scene.world.addInOrder(++scene.order, immovable({0, 0}), {});
+          int last = scene.addNail();
           const double k = std::pow(10.0, exponent);
           std::vector<int> bodies;
           double deepest = 0;  // of the last body at rest
@@ -189,12 +184,8 @@ TEST(SubstepJoints, NetOfStiffSpringsStaysCalm) {
       if (i % kSide > 0) scene.join(spring, JointKind::kSpring, ids[at(i - 1)], ids[at(i)]);
       if (i >= kSide) scene.join(spring, JointKind::kSpring, ids[at(i - kSide)], ids[at(i)]);
     }
-    double fastest = 0;
-    for (int tick = 0; tick < 300; ++tick) {
-      scene.ticks(1);
-      for (const int id : ids) fastest = std::max(fastest, scene.speed(id));
-    }
-    EXPECT_LT(fastest, 0.5) << stiffness;
+    const auto fastest = [&] { return scene.largest(ids, [&](int id) { return scene.speed(id); }); };
+    EXPECT_LT(scene.most(300, fastest), 0.5) << stiffness;
   }
 }
 
@@ -205,7 +196,7 @@ TEST(SubstepJoints, MotorDoesNotOpenItsHinge) {
       for (const double strength : {1.0, 100.0, kNoLimit}) {
         SCOPED_TRACE(testing::Message() << arm << ' ' << speed << ' ' << strength);
         SubstepScene scene(awake());
-        const int nail = scene.world.addInOrder(++scene.order, immovable({0, 0}), {});
+        const int nail = scene.addNail();
         const int crate = scene.add(movable({arm, 0}, box), box);
         const int hinge = scene.join({}, JointKind::kHinge, nail, crate, {}, {-arm, 0});
         scene.join({.speed = speed, .max_force = strength}, JointKind::kMotor, nail, crate);
@@ -223,7 +214,7 @@ TEST(SubstepJoints, MotorDoesNotOpenItsHinge) {
 struct HeavyChain : SubstepScene {
   HeavyChain(int count, double mass, bool hangs) : SubstepScene(awake()) {
     const ConvexShape link = boxShape(0.4, 0.1);
-    int last = hangs ? world.addInOrder(++order, immovable({-0.4, 0}), {}) : -1;
+    int last = hangs ? addNail({-0.4, 0}) : -1;
     for (int i = 0; i < count; ++i) {
       masses.push_back(i + 1 == count ? mass : 1);
       links.push_back(add(movable({0.8 * i, 0}, link, masses.back()), link));
@@ -233,9 +224,7 @@ struct HeavyChain : SubstepScene {
     }
   }
   double widest() const {
-    double gap = 0;
-    for (const int hinge : hinges) gap = std::max(gap, SubstepScene::gap(hinge));
-    return gap;
+    return largest(hinges, [this](int hinge) { return gap(hinge); });
   }
   std::vector<int> links, hinges;
   std::vector<double> masses;
@@ -244,21 +233,14 @@ struct HeavyChain : SubstepScene {
 TEST(SubstepJoints, HeavyEndDoesNotOpenAChain) {
   for (const double mass : {1e3, 1e6}) {
     HeavyChain chain(20, mass, true);
-    double widest = 0;
-    for (int tick = 0; tick < 300; ++tick) {
-      chain.ticks(1);
-      widest = std::max(widest, chain.widest());
-    }
-    EXPECT_LT(widest, 0.05) << mass;
+    EXPECT_LT(chain.most(300, [&] { return chain.widest(); }), 0.05) << mass;
   }
 }
 
 TEST(SubstepJoints, FreeChainFallsAsFastAsABody) {
   for (const double mass : {1.0, 1e6}) {
     HeavyChain chain(50, mass, false);
-    RigidBody first = chain.world.body(chain.links[0]);
-    first.velocity = {0, -0.3};  // it also turns
-    ASSERT_TRUE(chain.world.set(chain.links[0], first));
+    chain.setVelocity(chain.links[0], {0, -0.3});  // it also turns
     const auto centre = [&] {
       double sum = 0, moment = 0;
       for (std::size_t i = 0; i < chain.links.size(); ++i) {
@@ -377,9 +359,7 @@ TEST(SubstepJoints, AChainSleepsAndWakes) {
   }
   scene.ticks(200);
   for (const int link : links) ASSERT_TRUE(scene.world.isAsleep(link)) << link;
-  RigidBody end = scene.world.body(links.back());
-  end.velocity = {0.3, 0};
-  ASSERT_TRUE(scene.world.set(links.back(), end));
+  scene.setVelocity(links.back(), {0.3, 0});
   scene.ticks(1);
   for (const int link : links) EXPECT_FALSE(scene.world.isAsleep(link)) << link;
   EXPECT_GT(std::fabs(scene.at(links[1]).x), 1e-4);
@@ -394,7 +374,7 @@ TEST(SubstepJoints, BridgesBearHeavyLoads) {
       SCOPED_TRACE(testing::Message() << mass << ' ' << drop);
       SubstepScene scene(awake());
       const double run = 0.95, rise = std::sqrt(1 - run * run);
-      int last = scene.world.addInOrder(++scene.order, immovable({0, 0}), {});
+      int last = scene.addNail();
       Vec2 end = {};
       std::vector<int> hinges;
       for (int i = 0; i < kPlanks; ++i) {
@@ -406,7 +386,7 @@ TEST(SubstepJoints, BridgesBearHeavyLoads) {
         hinges.push_back(scene.join({}, JointKind::kHinge, last, next, {i == 0 ? 0 : 0.5, 0}, {-0.5, 0}));
         last = next;
       }
-      const int nail = scene.world.addInOrder(++scene.order, immovable(end), {});
+      const int nail = scene.addNail(end);
       hinges.push_back(scene.join({}, JointKind::kHinge, last, nail, {0.5, 0}));
       const int load =
           scene.add(movable({0.5 * end.x + 0.3, 0.5 * kPlanks * rise - 1.3 - drop}, disc, mass), disc);

@@ -59,12 +59,8 @@ TEST(SubstepWorld, HeaviestBodyPressesNothingThroughTheFloor) {
     for (int i = 0; i < 3; ++i) ids.push_back(scene.addCrate({0, -0.5 - i}));
     const ConvexShape shape = boxShape(0.5, 0.5);
     ids.push_back(scene.add(movable({off, -3.51}, shape, 1e12), shape));
-    double lowest = -1;
-    for (int tick = 0; tick < 150; ++tick) {
-      scene.ticks(1);
-      for (const int id : ids) lowest = std::max(lowest, scene.at(id).y);
-    }
-    EXPECT_LT(lowest, 0.5) << off;
+    const auto lowest = [&] { return scene.largest(ids, [&](int id) { return scene.at(id).y; }); };
+    EXPECT_LT(scene.most(150, lowest), 0.5) << off;
   }
 }
 
@@ -159,9 +155,7 @@ TEST(SubstepWorld, AContactBeginsOnceAndEndsOnce) {
     EXPECT_EQ(event.second, is_with_floor ? lower : upper);
     EXPECT_NEAR(event.normal.y, -1, 1e-6);  // towards `second`, which lies above
   }
-  RigidBody lifted = scene.world.body(upper);
-  lifted.velocity = {0, -0.5};
-  ASSERT_TRUE(scene.world.set(upper, lifted));
+  scene.setVelocity(upper, {0, -0.5});
   go(20);
   ASSERT_EQ(events.size(), 1U);
   EXPECT_FALSE(events[0].is_begin);
@@ -208,38 +202,30 @@ TEST(SubstepWorld, TouchedBodyWakesWithItsGroup) {
 }
 
 TEST(SubstepWorld, KinematicBodyPushes) {
-  SubstepScene scene;
-  scene.addFloor();
-  const int crate = scene.addCrate({0, -0.5});
-  scene.ticks(60);
-  ASSERT_TRUE(scene.world.isAsleep(crate));
+  SleepingCrate scene;
   RigidBody piston = immovable({-3, -0.6});
   piston.velocity = {0.1, 0};
   const int mover = scene.add(piston, boxShape(0.5, 0.5));
   scene.ticks(60);
   EXPECT_EQ(scene.at(mover).x, -3 + 0.1 * 60);
-  EXPECT_NEAR(scene.at(crate).x - scene.at(mover).x, 1, 0.02);
-  EXPECT_NEAR(scene.world.body(crate).velocity.x, 0.1, 0.02);
-  EXPECT_FALSE(scene.world.isAsleep(crate));
+  EXPECT_NEAR(scene.at(scene.crate).x - scene.at(mover).x, 1, 0.02);
+  EXPECT_NEAR(scene.world.body(scene.crate).velocity.x, 0.1, 0.02);
+  EXPECT_FALSE(scene.world.isAsleep(scene.crate));
 }
 
 // A platform carries the crate by friction. The crate does not sleep, because the platform moves.
 TEST(SubstepWorld, MovingPlatformCarriesTheCrate) {
   SubstepScene scene;
-  RigidBody platform = immovable({0, 0.5});
-  const int carrier = scene.add(platform, boxShape(4, 0.5));
+  const int carrier = scene.add(immovable({0, 0.5}), boxShape(4, 0.5));
   const int crate = scene.addCrate({0, -0.5});
   scene.ticks(60);
   ASSERT_TRUE(scene.world.isAsleep(crate));
-  platform.velocity = {0.05, 0};
-  ASSERT_TRUE(scene.world.set(carrier, platform));
+  scene.setVelocity(carrier, {0.05, 0});
   scene.ticks(100);
   EXPECT_FALSE(scene.world.isAsleep(crate));
   EXPECT_NEAR(scene.at(crate).x, scene.at(carrier).x, 0.5);
   EXPECT_NEAR(scene.world.body(crate).velocity.x, 0.05, 1e-3);
-  platform = scene.world.body(carrier);
-  platform.velocity = {5e-4, 0};  // slower than the sleep speed
-  ASSERT_TRUE(scene.world.set(carrier, platform));
+  scene.setVelocity(carrier, {5e-4, 0});  // slower than the sleep speed
   scene.ticks(30);
   const double start = scene.at(crate).x;
   scene.ticks(100);
@@ -375,12 +361,7 @@ TEST(SubstepWorld, APileGainsNoEnergy) {
     return sum;
   };
   const double start = energy();
-  double highest = start;
-  for (int tick = 0; tick < 300; ++tick) {
-    scene.ticks(1);
-    highest = std::max(highest, energy());
-  }
-  EXPECT_LE(highest, start * (1 + 1e-3));
+  EXPECT_LE(scene.most(300, energy), start * (1 + 1e-3));
   EXPECT_LT(energy(), 0.5 * start);  // the pile has collapsed
   EXPECT_LT(scene.world.deepest(), 0.03);
 }
