@@ -20,10 +20,9 @@
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/Object.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldLog.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/server/engine/oracle/OracleGeometry.h"
+#include "tests/support/LoggedWorld.h"
 
 namespace bench {
 namespace {
@@ -73,8 +72,7 @@ struct Verdict {
 
 class Crowd {
  public:
-  explicit Crowd(int n) : m_scope(m_world) {
-    m_world.log().setSink([](const std::string& /*line*/) {});
+  explicit Crowd(int n) {
     naiad::SplitMix64 random(20240607);
     std::vector<oracle::Mask> looks;
     double area = 0;
@@ -95,7 +93,6 @@ class Crowd {
       m_sprites.push_back(new Sprite(look, df::Vector(x, y), df::Vector(speed_x, speed_y)));
     }
   }
-  ~Crowd() { m_world.shutDown(); }
 
   /// Moves all sprites for a tick. Returns the time per Object.
   double tick() {
@@ -151,8 +148,7 @@ class Crowd {
     verdict.mismatches += static_cast<long>(wrong.size());
   }
 
-  df::World m_world;
-  df::World::Scope m_scope;
+  df::test::LoggedWorld m_own;
   double m_side = 0;
   std::vector<Sprite*> m_sprites;  // owned by the world
   long m_found = 0;

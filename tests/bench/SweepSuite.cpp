@@ -21,10 +21,9 @@
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/Object.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldLog.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/server/engine/oracle/OracleGeometry.h"
+#include "tests/support/LoggedWorld.h"
 
 namespace bench {
 namespace {
@@ -122,8 +121,7 @@ df::FixedVector exactly(df::Vector v) {
 /// A field of obstacles in this project's engine, and the runner that is sent through it.
 class Course {
  public:
-  explicit Course(const Field& field) : m_scope(m_world) {
-    m_world.log().setSink([](const std::string& /*line*/) {});
+  explicit Course(const Field& field) {
     WM.setBoundary(df::Box(df::Vector(-1e5, -1e5), 1e6, 1e6));
     for (const df::FixedBox& box : field.obstacles) {
       auto* p_obstacle = new df::Object;
@@ -134,7 +132,6 @@ class Course {
     m_p_runner = new Runner;
     m_p_runner->setSwept();
   }
-  ~Course() { m_world.shutDown(); }
 
   /// Puts the runner at the start of the cast.
   void place(const Cast& cast) { m_p_runner->setPosition(df::Vector::fromFixed(cast.from)); }
@@ -162,8 +159,7 @@ class Course {
     return p_object == nullptr ? kNobody : static_cast<std::uint32_t>(p_object->getId() - m_first_id);
   }
 
-  df::World m_world;
-  df::World::Scope m_scope;
+  df::test::LoggedWorld m_own;
   int m_first_id = 0;  // id of the first obstacle; further ones have the next ids
   Runner* m_p_runner;  // owned by the world
 };

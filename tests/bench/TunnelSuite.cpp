@@ -14,11 +14,10 @@
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/Object.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldLog.h"
 #include "shared/values/Fixed.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/server/engine/oracle/OracleGeometry.h"
+#include "tests/support/LoggedWorld.h"
 
 namespace bench {
 namespace {
@@ -90,12 +89,10 @@ class Shooter : public df::Object {
 class Range {
  public:
   /// Makes two Objects. The older one moves first in each tick.
-  Range(const Make& older, const Make& younger) : m_scope(m_world), m_makes{older, younger} {
-    m_world.log().setSink([](const std::string& /*line*/) {});
+  Range(const Make& older, const Make& younger) : m_makes{older, younger} {
     WM.setBoundary(df::Box(df::Vector(-1e6, -1e6), 1e6, 1e6));
     for (int i : {0, 1}) m_p_shooters[i] = new Shooter(m_makes[i]);
   }
-  ~Range() { m_world.shutDown(); }
 
   /// Makes all moves of the world swept (WM.setSweptCollisions), whatever the Objects' own settings are.
   void sweepAll() {
@@ -201,8 +198,7 @@ class Range {
     return own.solidness == df::HARD && its.solidness == df::HARD;
   }
 
-  df::World m_world;
-  df::World::Scope m_scope;
+  df::test::LoggedWorld m_own;
   Make m_makes[2];
   Flier m_fliers[2];
   Shooter* m_p_shooters[2];  // owned by the world

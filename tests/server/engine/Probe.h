@@ -21,21 +21,17 @@
 #include "engine/world/Object.h"
 #include "engine/world/ObjectRegistry.h"
 #include "engine/world/Views.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
+#include "tests/support/LoggedWorld.h"
 
 namespace df::test {
 
 using Received = std::vector<std::string>;
 
 /// A world that is current during a test, with its log lines.
-class WorldTest : public ::testing::Test {
+class WorldTest : public ::testing::Test, protected LoggedWorld {
  protected:
-  WorldTest() : scope(world) {
-    world.log().setSink([this](const std::string& line) { lines.push_back(line); });
-  }
-  ~WorldTest() override { world.shutDown(); }
+  ~WorldTest() override { world.shutDown(); }  // while `received` exists
 
   void ticks(int n) {
     for (int i = 0; i < n; ++i) world.tick();
@@ -81,10 +77,7 @@ class WorldTest : public ::testing::Test {
     return all;
   }
 
-  std::vector<std::string> lines;
   Received received;  // "name:event" entries of the Probes that share this list
-  World world;
-  World::Scope scope;
 };
 
 struct PlacedObject : Object {

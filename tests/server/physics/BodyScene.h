@@ -10,38 +10,21 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "engine/managers/WorldManager.h"
-#include "engine/world/EventCollision.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldLog.h"
 #include "physics/body/Body.h"
 #include "physics/body/BodyLayer.h"
 #include "physics/body/EventContactEnd.h"
 #include "physics/body/Field.h"
 #include "physics/body/PhysicsManager.h"
 #include "physics/body/Seconds.h"
+#include "tests/server/engine/Probe.h"
 
 namespace df::test {
 
-/// A world that is current during a test, with cells twice as high as wide. Records its log lines.
-class PhysicsWorld : public testing::Test {
- protected:
-  PhysicsWorld() : scope(world) {
-    world.log().setSink([this](const std::string& line) { log.push_back(line); });
-  }
-  ~PhysicsWorld() override { world.shutDown(); }
-  void ticks(int n) {
-    for (int i = 0; i < n; ++i) world.tick();
-  }
-
-  std::vector<std::string> log;
-  World world;
-  World::Scope scope;
-
+/// A world with cells twice as high as wide.
+class PhysicsWorld : public WorldTest {
  public:
   /// Makes a HARD Object without mass.
   template <class Its = Object>
@@ -113,16 +96,12 @@ inline BodyBits stateBits(const Body* p_body) {
 }
 
 /// A second world, which is current instead of the test's world while this is in scope.
-struct OwnWorld {
+struct OwnWorld : LoggedWorld {
   explicit OwnWorld(double aspect = 1, Vector gravity = Vector(), Accuracy accuracy = ACCURACY_DEFAULT) {
-    world.log().setSink([](const std::string&) {});
     PM.setAspect(aspect);
     PM.setGravity(gravity);
     PM.setAccuracy(accuracy);
   }
-  OwnWorld(const OwnWorld&) = delete;
-  OwnWorld& operator=(const OwnWorld&) = delete;
-  ~OwnWorld() { world.shutDown(); }
   /// Runs some ticks, each after a call of `before` with its number. Returns the bodies' states after each.
   std::vector<BodyBits> states(int ticks, const std::vector<Body*>& bodies,
                                const std::function<void(int tick)>& before = {}) {
@@ -134,9 +113,6 @@ struct OwnWorld {
     }
     return all;
   }
-
-  World world;
-  World::Scope scope{world};
 };
 
 /// A Field by a function of displacement and velocity. Counts its calls.

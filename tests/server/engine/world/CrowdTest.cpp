@@ -43,9 +43,8 @@ struct Crowd {
 std::vector<std::string> play(const Crowd& crowd, std::uint64_t seed, bool ears,
                               MoverStats* p_stats = nullptr) {
   naiad::SplitMix64 random(seed);
-  World world;
-  const World::Scope scope(world);
   std::ostringstream pages;
+  LoggedWorld own;
   std::vector<Object*> all;
   const auto place = [&] { return crowd.spread * random.unit(); };
   for (int i = 0; i < crowd.objects; ++i) {
@@ -74,7 +73,7 @@ std::vector<std::string> play(const Crowd& crowd, std::uint64_t seed, bool ears,
   }
   std::vector<std::string> said;
   for (int tick = 0; tick < 20; ++tick) {
-    world.tick();
+    own.world.tick();
     std::ostringstream line;
     line.precision(17);
     for (const Object* p_o : all) {
@@ -85,8 +84,7 @@ std::vector<std::string> play(const Crowd& crowd, std::uint64_t seed, bool ears,
     pages.str({});
     said.push_back(line.str());
   }
-  if (p_stats != nullptr) *p_stats = world.store().moverStats();
-  world.shutDown();
+  if (p_stats != nullptr) *p_stats = own.world.store().moverStats();
   return said;
 }
 

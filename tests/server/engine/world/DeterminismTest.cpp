@@ -10,9 +10,8 @@
 #include "engine/events/EventStep.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldLog.h"
 #include "shared/values/SplitMix64.h"
+#include "tests/support/LoggedWorld.h"
 
 namespace df::test {
 namespace {
@@ -20,15 +19,13 @@ namespace {
 constexpr int kTicks = 3000;
 constexpr std::uint64_t kHash = 0xbbf0e9000aa30fba;
 
-class Recording {
+class Recording : public LoggedWorld {
  public:
   Recording() {
-    world.log().setSink([](const std::string&) {});
     world.setSeed(20261121);
     WM.setBoundary(Box(Vector(-40, -20), 160, 60));
     for (int i = 0; i < 250; ++i) spawn();
   }
-  ~Recording() { world.shutDown(); }
 
   void take(std::uint64_t value) { hash = (hash ^ value) * 0x9E3779B97F4A7C15ull + (hash >> 29); }
   void take(Vector v) {
@@ -44,8 +41,6 @@ class Recording {
   }
   void spawn();
 
-  World world;
-  World::Scope scope{world};
   std::uint64_t hash = 1;
 };
 

@@ -95,12 +95,9 @@ void add(Bits& bits, Vector v) {
 }
 
 // A world with all kinds of bodies, far from the place at which the tests misuse a body.
-class Witnesses {
+class Witnesses : public OwnWorld {
  public:
-  Witnesses() : scope(world) {
-    world.log().setSink([this](const std::string& line) { log.push_back(line); });
-    PM.setAspect(1);
-    PM.setGravity(Vector(0, 0.01));
+  Witnesses() : OwnWorld(1, Vector(0, 0.01)) {
     BodyScene::wall(Vector(1000, 5), Vector(100, 5));
     for (int i = 0; i < 3; ++i) m_all.push_back(BodyScene::crate(Vector(950, -0.6 - 1.2 * i)));
     for (int i = 0; i < 3; ++i) m_all.push_back(compound(Vector(960, -3 - 4 * i)));
@@ -112,10 +109,6 @@ class Witnesses {
     p_rope->pin(0);
     m_all.push_back(p_rope);
   }
-  Witnesses(const Witnesses&) = delete;
-  Witnesses& operator=(const Witnesses&) = delete;
-  ~Witnesses() { world.shutDown(); }
-
   void ticks(int n) {
     for (int i = 0; i < n; ++i) {
       world.update();
@@ -126,10 +119,7 @@ class Witnesses {
     }
   }
 
-  std::vector<std::string> log;
   Bits seen;
-  World world;
-  World::Scope scope;
 
  private:
   std::vector<const Object*> m_all;
@@ -192,7 +182,7 @@ TEST(BodyExtremes, ExcessiveForceAffectsOnlyItsBody) {
     EXPECT_EQ(isFrozen(p_pushed), is_taken && !is_free);
     EXPECT_EQ(PM.getQuarantineCount() > 0, is_taken && !is_free);
     EXPECT_EQ(PM.getLimitCount() > 0, is_taken && is_free);
-    EXPECT_EQ(those.log.empty(), !is_taken && those.world.log().refusals() == 0);
+    EXPECT_EQ(those.lines.empty(), !is_taken && those.world.log().refusals() == 0);
     EXPECT_EQ(those.world.log().refusals() - refusals, is_taken ? 0u : 1u);
     EXPECT_EQ(p_pushed->getVelocity().x() != 0, is_taken && is_free);
     EXPECT_EQ(those.seen, undisturbed(kTicks));
@@ -247,7 +237,7 @@ TEST_P(InOnePlace, HundredsOfBodiesStayBounded) {
     }
     EXPECT_NEAR(momentum / many, kFall, 0.01);  // the centre of mass falls
     EXPECT_EQ(those.seen, undisturbed(kTicks));
-    EXPECT_LE(those.log.size(), 1u);  // only the message about crowded soft bodies is allowed
+    EXPECT_LE(those.lines.size(), 1u);  // only the message about crowded soft bodies is allowed
     return bits;
   };
   EXPECT_EQ(run(), run());

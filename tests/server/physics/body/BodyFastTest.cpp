@@ -95,7 +95,7 @@ TEST_F(BodyFast, LevelChangeRepeatsNoContactEvents) {
     EXPECT_NEAR(pile[i]->getPosition().y(), -0.5 - (i < 4 ? 0 : i < 7 ? 1 : i < 9 ? 2 : 3), 0.05) << i;
   }
   EXPECT_EQ(world.log().refusals(), 0U);
-  for (const std::string& line : log) EXPECT_EQ(line.find("frozen"), std::string::npos) << line;
+  for (const std::string& line : lines) EXPECT_EQ(line.find("frozen"), std::string::npos) << line;
 }
 
 // Joints between bodies and to the world hold before and after a change of level.

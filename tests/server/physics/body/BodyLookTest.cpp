@@ -6,13 +6,13 @@
 #include "engine/world/Capture.h"
 #include "engine/world/InputQueue.h"
 #include "engine/world/Views.h"
-#include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
 #include "host/snapshot/Publisher.h"
 #include "physics/body/Body.h"
 #include "physics/body/BodyLook.h"
 #include "shared/replica/Limits.h"
 #include "shared/replica/LookCodec.h"
+#include "tests/server/engine/Probe.h"
 #include "tests/server/physics/RandomShapes.h"
 
 namespace naiad::physics {
@@ -193,9 +193,9 @@ TEST(BodyLook, AnglesBecomeIntegersThatWrap) {
 }
 
 /// A world with one body, and its publisher.
-class DrawnBody : public testing::Test {
+class DrawnBody : public df::test::WorldTest {
  protected:
-  DrawnBody() : scope(world) {
+  DrawnBody() {
     world.store().setWatched(true);
     world.input().join("Ann", df::WHITE);
     body.setPosition(df::Vector(30, 12));
@@ -223,8 +223,6 @@ class DrawnBody : public testing::Test {
     return looks;
   }
 
-  df::World world;
-  df::World::Scope scope;
   df::Body body;
   Publisher publisher;
 

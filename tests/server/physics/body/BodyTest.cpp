@@ -114,8 +114,8 @@ TEST_F(Bodies, BodyInASingularityFreezesAlone) {
   ticks(1);  // the body is in the centre, where the field is 0/0
   EXPECT_TRUE(p_doomed->isFrozen());
   EXPECT_EQ(PM.getQuarantineCount(), 1u);
-  ASSERT_FALSE(log.empty());
-  EXPECT_NE(log.back().find("Doomed"), std::string::npos);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("Doomed"), std::string::npos);
   expectNear(p_other->getPosition(), Vector(5.25, 5), 1e-15);
   p_doomed->setField(nullptr);
   p_doomed->setVelocity(Vector(1, 0));
