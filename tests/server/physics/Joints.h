@@ -30,4 +30,12 @@ inline Joint jointOf(JointKind kind, int a, int b, const JointSettings& its = {}
   return joint;
 }
 
+/// Returns the distance of the joint's anchors.
+template <class World>
+double gapOf(const World& world, int joint_id) {
+  const Joint& joint = world.joint(joint_id);
+  const auto &a = world.body(joint.a), &b = world.body(joint.b);
+  return length((b.place - a.place) + b.rotation * joint.anchor_b - a.rotation * joint.anchor_a);
+}
+
 }  // namespace naiad::physics::test

@@ -23,6 +23,12 @@ inline Rotation anyRotation(SplitMix64& random) {
   return rotationBy(between(random, -3.14, 3.14));
 }
 
+inline RotatedShape rotated(const ConvexShape& shape, const Rotation& by) {
+  RotatedShape its;
+  turn(shape, by, its);
+  return its;
+}
+
 /// Returns the corners of the convex hull, ordered from x to y (A. Andrew's monotone chains).
 inline std::vector<Vec2> hullOf(std::vector<Vec2> points) {
   std::sort(points.begin(), points.end(),

@@ -224,9 +224,7 @@ TEST(ShapeRaster, CoversCellsWithTheirCentreInside) {
     shape.radius *= size;
     const Rotation q = anyRotation(random);
     const Vec2 centre = anyVec(random, 3);
-    RotatedShape placed;
-    turn(shape, q, placed);
-    rasterise(placed, centre, aspect, spans);
+    rasterise(rotated(shape, q), centre, aspect, spans);
     for (int row = -40; row <= 40; ++row) {
       const auto span =
           std::find_if(spans.begin(), spans.end(), [&](const CellSpan& s) { return s.row == row; });
@@ -244,8 +242,7 @@ TEST(ShapeRaster, CoversCellsWithTheirCentreInside) {
 }
 
 TEST(ShapeRaster, HugeShapeIsClippedToTheLimit) {
-  RotatedShape placed;
-  turn(test::boxShape(1e6, 1e6), {}, placed);
+  const RotatedShape placed = rotated(test::boxShape(1e6, 1e6), {});
   std::vector<CellSpan> spans;
   rasterise(placed, {}, 1, spans, 100);
   ASSERT_EQ(spans.size(), 201U);

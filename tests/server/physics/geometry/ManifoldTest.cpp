@@ -23,9 +23,7 @@ TEST(ShapeDistance, MatchesBruteForceCornerEdgeDistances) {
     const ConvexShape a = anyShape(random), b = anyShape(random);
     const Rotation qa = anyRotation(random), qb = anyRotation(random);
     const Vec2 offset = anyVec(random, 3);
-    RotatedShape ta, tb;
-    turn(a, qa, ta);
-    turn(b, qb, tb);
+    const RotatedShape ta = rotated(a, qa), tb = rotated(b, qb);
     const double truth = test::slowDistance(test::placed(a, qa, {}), test::placed(b, qb, offset));
     const Separation s = separation(ta, tb, offset);
     EXPECT_NEAR(length(s.normal), 1, 1e-15);
@@ -65,12 +63,9 @@ TEST(ShapeDistance, IsExactForParallelEdgesAndCollinearPoints) {
     }
     const Rotation q = random.unit() < 0.3 ? Rotation{} : anyRotation(random);
     const Vec2 displacement = q * Vec2{coarse(3), coarse(3)};
-    RotatedShape a, b;
-    turn(shapes[0], q, a);
-    turn(shapes[1], q, b);
     const double truth =
         test::slowDistance(test::placed(shapes[0], q, {}), test::placed(shapes[1], q, displacement));
-    const Separation s = separation(a, b, displacement);
+    const Separation s = separation(rotated(shapes[0], q), rotated(shapes[1], q), displacement);
     if (truth > 1e-12) {
       ASSERT_NEAR(s.distance, truth, 1e-13) << i;
     } else {
@@ -88,9 +83,7 @@ TEST(ShapeDistance, LongCapsulesThatCrossOverlap) {
     ASSERT_EQ(makeCapsule({-3, 0}, {between(random, 0.1, 3), 0}, 0.1, b), ShapeStatus::kOk);
     const Rotation qa = anyRotation(random), qb = turned(qa, between(random, -0.3, 0.3));
     const Vec2 offset = anyVec(random, 1);
-    RotatedShape ta, tb;
-    turn(a, qa, ta);
-    turn(b, qb, tb);
+    const RotatedShape ta = rotated(a, qa), tb = rotated(b, qb);
     const Separation s = separation(ta, tb, offset);
     if (test::slowDistance(test::placed(a, qa, {}), test::placed(b, qb, offset)) > 0) continue;
     ++crossed;
@@ -196,9 +189,7 @@ TEST(Manifold, IdsAndNormalStayWhileBoxesRock) {
   for (int i = 0; i < 10000; ++i) {
     const Rotation qa = rotationBy(between(random, -1e-5, 1e-5)),
                    qb = rotationBy(between(random, -1e-5, 1e-5));
-    RotatedShape a, b;
-    turn(below, qa, a);
-    turn(above, qb, b);
+    const RotatedShape a = rotated(below, qa), b = rotated(above, qb);
     Manifold m;
     ASSERT_TRUE(collide(a, b, {0.1, -0.999 + between(random, -1e-4, 1e-4)}, 0.05, kept, m));
     EXPECT_EQ(m.reference, first.reference);
@@ -216,14 +207,11 @@ TEST(Manifold, IdsAndNormalStayWhileBoxesRock) {
 }
 
 TEST(Manifold, WrongCachedFaceDoesNoHarm) {
-  const ConvexShape a = boxShape(0.5, 0.5), b = boxShape(0.5, 0.5);
-  RotatedShape ta, tb;
-  turn(a, {}, ta);
-  turn(b, {}, tb);
+  const RotatedShape box = rotated(boxShape(0.5, 0.5), {});
   for (const auto owner : {ReferenceFace::Owner::kA, ReferenceFace::Owner::kB}) {
     for (int edge = 0; edge < 255; ++edge) {
       Manifold m;
-      ASSERT_TRUE(collide(ta, tb, {0.25, -0.99}, 0, {owner, static_cast<std::uint8_t>(edge)}, m));
+      ASSERT_TRUE(collide(box, box, {0.25, -0.99}, 0, {owner, static_cast<std::uint8_t>(edge)}, m));
       EXPECT_EQ(m.normal, (Vec2{0, -1}));
       EXPECT_NEAR(smallest(m), -0.01, 1e-15);
     }
@@ -264,9 +252,8 @@ TEST(Manifold, GeometryHashIsTheSameOnEveryPlatform) {
     hash.add(impact.time), hash.add(impact.gap), hash.add(impact.normal);
     const RayHit hit = castRay(a, offset, motion_a.displacement);
     hash.add(hit.fraction), hash.add(hit.normal);
-    RotatedShape placed;
-    turn(a, motion_a.start, placed);
-    broad.add(i, gridBounds(placeAt(10 * offset), boundsOf(placed), 0.1), true);
+    const Bounds bounds = boundsOf(rotated(a, motion_a.start));
+    broad.add(i, gridBounds(placeAt(10 * offset), bounds, 0.1), true);
   }
   for (const BroadPhasePair& pair : broad.updatePairs()) hash.add(std::uint64_t{pair.id_a} << 32 | pair.id_b);
   EXPECT_EQ(hash.value(), 9358134255254305601U);

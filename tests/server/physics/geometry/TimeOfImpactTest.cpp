@@ -116,9 +116,7 @@ TEST(TimeOfImpact, TouchingPairsNeverPenetrateBeforeTheHit) {
   int hits = 0, late = 0, apart = 0;
   for (int i = 0; i < 20000 / kShare; ++i) {
     Scene s = anyScene(random, 1, 3);
-    RotatedShape a, b;
-    turn(s.a, s.motion_a.start, a);
-    turn(s.b, s.motion_b.start, b);
+    const RotatedShape a = rotated(s.a, s.motion_a.start), b = rotated(s.b, s.motion_b.start);
     s.offset = anyVec(random, 3);
     const Separation first = separation(a, b, s.offset);
     s.offset -= (first.distance - (s.a.radius + s.b.radius)) * first.normal;

@@ -213,11 +213,7 @@ std::uint64_t heapAt(const Place& origin, bool has_poison) {
     const int id = put(body, is_disc ? disc : crate);
     if (i % 10 == 1) last = id;
     if (i % 10 == 2) {
-      Joint joint;
-      joint.kind = JointKind::kHinge;
-      joint.a = last, joint.b = id;
-      joint.anchor_a = {0.55, 0}, joint.anchor_b = {-0.55, 0};
-      EXPECT_GE(world.addJoint(joint), 0);
+      EXPECT_GE(world.addJoint(jointOf(JointKind::kHinge, last, id, {}, {0.55, 0}, {-0.55, 0})), 0);
     }
   }
   int poisoned = -1;
@@ -309,12 +305,6 @@ TEST(RigidWorld, ReportsWhenContactsBeginAndEnd) {
   world.step();
   ASSERT_EQ(world.events().size(), 1U);
   EXPECT_FALSE(world.events()[0].is_begin);
-}
-
-double gapOf(const RigidWorld& world, int id) {
-  const Joint& joint = world.joint(id);
-  const RigidBody &a = world.body(joint.a), &b = world.body(joint.b);
-  return length((b.place - a.place) + b.rotation * joint.anchor_b - a.rotation * joint.anchor_a);
 }
 
 TEST(RigidWorld, ABridgeBearsItsLoad) {

@@ -60,12 +60,7 @@ struct SubstepScene {
   }
   Vec2 at(int id) const { return world.body(id).place - Place{}; }
   double speed(int id) const { return length(world.body(id).velocity); }
-  /// Returns the distance of the joint's anchors.
-  double gap(int joint_id) const {
-    const Joint& joint = world.joint(joint_id);
-    const RigidBody &a = world.body(joint.a), &b = world.body(joint.b);
-    return length((b.place - a.place) + b.rotation * joint.anchor_b - a.rotation * joint.anchor_a);
-  }
+  double gap(int joint_id) const { return gapOf(world, joint_id); }
 
   SubstepWorld world;
   std::uint64_t order = 0;
