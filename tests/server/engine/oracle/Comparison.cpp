@@ -24,17 +24,7 @@ std::string toString(const Snapshot& state) {
   return text.str();
 }
 
-std::string firstDifference(const std::vector<Snapshot>& engine, const std::vector<Snapshot>& oracle) {
-  std::size_t i = 0;
-  while (i < engine.size() && i < oracle.size() && engine[i] == oracle[i]) ++i;
-  if (i == engine.size() && i == oracle.size()) return {};
-  const auto at = [&](const std::vector<Snapshot>& states) {
-    return i < states.size() ? toString(states[i]) : "no more Objects";
-  };
-  std::ostringstream text;
-  text << "  engine  " << at(engine) << "\n  oracle  " << at(oracle) << '\n';
-  return text.str();
-}
+constexpr std::size_t kCommonEvents = 8;  // shown before the first one that differs
 
 std::uint64_t hashOf(const std::vector<Snapshot>& states, std::uint64_t hash) {
   for (const Snapshot& state : states) {
@@ -122,8 +112,10 @@ Comparison run(const RandomWorld& world, bool explain) {
     const bool one_switch = engine.getSweptCollisions() == oracle.getSweptCollisions();
     if (engine.script().log().hash() != oracle.script().log().hash() || engine_states != oracle_states ||
         !one_switch) {
-      result.difference = firstDifference(engine.script().log(), oracle.script().log()) +
-                          firstDifference(engine_states, oracle_states) +
+      const auto text = [](const auto& its) { return toString(its); };
+      result.difference = firstDifference(engine.script().log().entries(), oracle.script().log().entries(),
+                                          kCommonEvents, text) +
+                          firstDifference(engine_states, oracle_states, 0, text) +
                           (one_switch ? "" : "  the switch for sweeps\n");
     }
     if (result.difference.empty() && world.options.any && result.ticks % 8 == 0) {

@@ -1,6 +1,5 @@
 #include "EventLog.h"
 
-#include <algorithm>
 #include <sstream>
 
 namespace oracle {
@@ -32,21 +31,6 @@ std::string toString(const Entry& entry) {
       text << "destructor of " << entry.receiver;
       break;
   }
-  return text.str();
-}
-
-std::string firstDifference(const EventLog& engine, const EventLog& oracle) {
-  const auto& a = engine.entries();
-  const auto& b = oracle.entries();
-  std::size_t i = 0;
-  while (i < a.size() && i < b.size() && a[i] == b[i]) ++i;
-  if (i == a.size() && i == b.size()) return {};
-
-  std::ostringstream text;
-  for (std::size_t k = i - std::min<std::size_t>(i, 8); k < i; ++k)
-    text << "  both    " << toString(a[k]) << '\n';
-  text << "  engine  " << (i < a.size() ? toString(a[i]) : "nothing more") << '\n';
-  text << "  oracle  " << (i < b.size() ? toString(b[i]) : "nothing more") << '\n';
   return text.str();
 }
 

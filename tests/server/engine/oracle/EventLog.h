@@ -1,6 +1,8 @@
 // The events of a world, in order: a running hash and, on request, every entry.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -55,7 +57,17 @@ class EventLog {
   std::vector<Entry> m_entries;
 };
 
-/// Describes the first entry in which the logs differ, after up to eight common ones. Empty if none does.
-std::string firstDifference(const EventLog& engine, const EventLog& oracle);
+/// Describes the first element in which the two differ, after up to `common` common ones. Empty if none does.
+template <class Element, class Text>
+std::string firstDifference(const std::vector<Element>& engine, const std::vector<Element>& oracle,
+                            std::size_t common, Text textOf) {
+  std::size_t i = 0;
+  while (i < engine.size() && i < oracle.size() && engine[i] == oracle[i]) ++i;
+  if (i == engine.size() && i == oracle.size()) return {};
+  std::string text;
+  for (std::size_t k = i - std::min(i, common); k < i; ++k) text += "  both    " + textOf(engine[k]) + '\n';
+  text += "  engine  " + (i < engine.size() ? textOf(engine[i]) : "nothing more") + '\n';
+  return text + "  oracle  " + (i < oracle.size() ? textOf(oracle[i]) : "nothing more") + '\n';
+}
 
 }  // namespace oracle
