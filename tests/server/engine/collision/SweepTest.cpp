@@ -25,21 +25,6 @@ TEST(Moments, AreComparedAsExactFractions) {
   EXPECT_EQ((Moment{1, 4}).toDouble(), 0.25);
 }
 
-TEST(SweptMove, AxisMovesOnlyAfterAFullUnit) {
-  // Moves two units to the right and three down: x becomes 1 at t = 1/2, while y is 1.
-  const Sweep sweep({{}, {}}, {0, 0}, {2, 3});
-  EXPECT_EQ(sweep.firstTouch({{1, 1}, {}}), (Moment{1, 2}));
-  EXPECT_EQ(sweep.firstTouch({{0, 1}, {}}), (Moment{1, 3}));
-  EXPECT_EQ(sweep.firstTouch({{1, 2}, {}}), (Moment{2, 3}));
-  EXPECT_EQ(sweep.firstTouch({{2, 3}, {}}), (Moment{1, 1}));
-  EXPECT_EQ(sweep.firstTouch({{1, 0}, {}}), std::nullopt) << "never at (1,0)";
-  EXPECT_EQ(sweep.firstTouch({{0, 2}, {}}), std::nullopt);
-  EXPECT_EQ(sweep.before({1, 2}), (FixedVector{0, 1}));
-  EXPECT_EQ(sweep.before({2, 3}), (FixedVector{1, 1}));
-  EXPECT_EQ(sweep.before({1, 1}), (FixedVector{1, 2}));
-  EXPECT_EQ(sweep.before({0, 1}), (FixedVector{0, 0}));
-}
-
 class MaskedMove : public testing::Test {
  protected:
   static FixedBox boxAt(int x, int y, int width, int height) {
