@@ -95,19 +95,9 @@ class Contest {
              std::equal(first.checksums.begin(), first.checksums.begin() + both, entry.checksums.begin());
     });
   }
-  /// Returns the first engine's events per timed tick.
-  double eventsPerTick() const {
-    const Entry& first = m_entries.front();
-    const Tally& end = first.engine->tally();
-    return static_cast<double>(end.events - first.warm.events) /
-           static_cast<double>(end.tick - first.warm.tick);
-  }
-  double blockedPerTick() const {
-    const Entry& first = m_entries.front();
-    const Tally& end = first.engine->tally();
-    return static_cast<double>(end.blocked - first.warm.blocked) /
-           static_cast<double>(end.tick - first.warm.tick);
-  }
+  /// Return the first engine's events and blocked moves per timed tick.
+  double eventsPerTick() const { return perTick(&Tally::events); }
+  double blockedPerTick() const { return perTick(&Tally::blocked); }
 
  private:
   struct Entry {
@@ -121,6 +111,12 @@ class Contest {
     std::vector<double> times;  // ns per whole tick, one per repetition
   };
 
+  double perTick(std::uint64_t Tally::*count) const {
+    const Entry& first = m_entries.front();
+    const Tally& end = first.engine->tally();
+    return static_cast<double>(end.*count - first.warm.*count) /
+           static_cast<double>(end.tick - first.warm.tick);
+  }
   static double runTicks(Entry& entry, int ticks) {
     const double begin = cpuNanoseconds();
     for (int i = 0; i < ticks; ++i) {

@@ -44,8 +44,7 @@ class Ball : public df::Object {
     if (m_turned == m_tally.tick) return 1;  // it collided with several boxes in this tick
     m_turned = m_tally.tick;
     ++m_tally.blocked;
-    const df::Vector v = getVelocity();
-    setVelocity(df::Vector(-v.x(), -v.y()));
+    reverse(*this);
     return 1;
   }
 

@@ -14,6 +14,7 @@
 #include "ElapsedTime.h"
 #include "RandomMask.h"
 #include "ResultLine.h"
+#include "Scene.h"
 #include "SortedBoxes.h"
 #include "Suite.h"
 #include "engine/events/EventOut.h"
@@ -43,9 +44,9 @@ class Sprite : public df::Object {
   int eventHandler(const df::Event* p_e) override {
     if (p_e->getType() == df::OUT_EVENT) {
       setPosition(getPosition() - getVelocity());
-      turn();
+      reverse(*this);
     } else if (p_e->getType() == df::COLLISION_EVENT) {
-      if (static_cast<const df::EventCollision*>(p_e)->getObject1() == this) turn();
+      if (static_cast<const df::EventCollision*>(p_e)->getObject1() == this) reverse(*this);
     }
     return 1;
   }
@@ -56,12 +57,6 @@ class Sprite : public df::Object {
   }
 
   const oracle::Mask mask;
-
- private:
-  void turn() {
-    const df::Vector v = getVelocity();
-    setVelocity(df::Vector(-v.x(), -v.y()));
-  }
 };
 
 // The result for one arrangement of the Objects.

@@ -73,4 +73,11 @@ void turnBack(Object& object, Number side) {
   object.setVelocity({left_x ? -v.getX() : v.getX(), left_y ? -v.getY() : v.getY()});
 }
 
+/// Reverses the velocity of an Object of this engine or of the book's.
+template <class Object>
+void reverse(Object& object) {
+  const auto v = object.getVelocity();
+  object.setVelocity(decltype(v)() - v);
+}
+
 }  // namespace bench

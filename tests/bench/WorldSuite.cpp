@@ -228,10 +228,7 @@ class Citizen : public Ball {
  private:
   int hit() {
     ++m_crowd.tally.events;
-    if (m_crowd.kind == Kind::VELOCITY) {
-      const df::Vector v = getVelocity();
-      setVelocity(df::Vector(-v.x(), -v.y()));
-    }
+    if (m_crowd.kind == Kind::VELOCITY) reverse(*this);
     if (m_crowd.kind == Kind::SPAWN && --m_crowd.until_spawn == 0) {
       m_crowd.until_spawn = kSpawnEvery;
       replace();

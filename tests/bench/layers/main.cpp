@@ -47,8 +47,7 @@ class Walker : public df::Object {
   int eventHandler(const df::Event* p_e) override {
     if (p_e->getType() != df::COLLISION_EVENT) return 0;
     if (static_cast<const df::EventCollision*>(p_e)->getObject1() != this) return 1;
-    const df::Vector v = getVelocity();
-    setVelocity(df::Vector(-v.x(), -v.y()));
+    reverse(*this);
     return 1;
   }
 };

@@ -32,8 +32,7 @@ class Ball : public Object {
     if (m_turned == m_tally.tick) return 1;  // it collided with several boxes in this tick
     m_turned = m_tally.tick;
     ++m_tally.blocked;
-    const Vector v = getVelocity();
-    setVelocity(Vector(-v.getX(), -v.getY()));
+    bench::reverse(*this);
     return 1;
   }
 

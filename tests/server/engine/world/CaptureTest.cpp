@@ -8,6 +8,10 @@ namespace {
 
 class Capture : public WorldTest {
  protected:
+  void tickWatched() {
+    world.store().setWatched(true);
+    GM.tick();
+  }
   Probe* make(const std::string& name, double x, double y, int altitude = 2) {
     auto* p = new Probe(name, nullptr, Vector(x, y));
     p->setSolidness(SPECTRAL);
@@ -172,8 +176,7 @@ TEST_F(Capture, UnwatchedTicksReportNothingFirstWatchedReportsAll) {
   Object b;
   GM.tick();
   EXPECT_TRUE(world.picture().view().changed.empty());
-  world.store().setWatched(true);
-  GM.tick();
+  tickWatched();
   ASSERT_EQ(world.picture().view().changed.size(), 2u);
   EXPECT_EQ(world.picture().view().changed[0].key, a.key());
   EXPECT_EQ(world.picture().view().changed[1].key, b.key());
@@ -187,8 +190,7 @@ TEST_F(Capture, ChangesAreReportedInCreationOrder) {
   Object a;
   Object b;
   Object c;
-  world.store().setWatched(true);
-  GM.tick();
+  tickWatched();
   c.setAltitude(3);
   a.setSolidness(SPECTRAL);
   a.setVelocity(Vector(0, 0.5));
@@ -204,8 +206,7 @@ TEST_F(Capture, ChangesAreReportedInCreationOrder) {
 
 TEST_F(Capture, EveryPropertyChangeIsReported) {
   Object o;
-  world.store().setWatched(true);
-  GM.tick();
+  tickWatched();
   const std::pair<const char*, std::function<void()>> kChanges[] = {
       {"solidness", [&] { o.setSolidness(SOFT); }},
       {"no soft", [&] { o.setNoSoft(); }},
@@ -232,8 +233,7 @@ TEST_F(Capture, BlockedObjectReportsNoVelocityUntilFree) {
   PlacedObject a(Vector(10.5, 10));
   a.setVelocity(Vector(1, 0));
   a.setAcceleration(Vector(0.5, 0));
-  world.store().setWatched(true);
-  GM.tick();
+  tickWatched();
   ASSERT_NE(changed(a), nullptr);
   EXPECT_EQ(changed(a)->velocity, FixedVector{});
   EXPECT_EQ(changed(a)->acceleration, FixedVector{});
@@ -251,16 +251,14 @@ TEST_F(Capture, BouncerReportsItsNewVelocity) {
   Probe a("a", nullptr, Vector(10.5, 10));
   a.setVelocity(Vector(1, 0));
   a.on_event = [](Probe& self, const Event&) { self.setVelocity(Vector(-1, 0)); };
-  world.store().setWatched(true);
-  GM.tick();
+  tickWatched();
   ASSERT_NE(changed(a), nullptr);
   EXPECT_EQ(toCells(changed(a)->velocity.x), -1);
 }
 
 TEST_F(Capture, OnlyReportedObjectsAreReportedVanished) {
   auto* p_a = new Object;
-  world.store().setWatched(true);
-  GM.tick();
+  tickWatched();
   const ObjectKey key = p_a->key();
   p_a->setAltitude(1);
   delete p_a;
@@ -274,8 +272,7 @@ TEST_F(Capture, OnlyReportedObjectsAreReportedVanished) {
 
 TEST_F(Capture, ReinsertedObjectIsReportedAsNew) {
   Object o;
-  world.store().setWatched(true);
-  GM.tick();
+  tickWatched();
   const ObjectKey before = o.key();
   WM.removeObject(&o);
   WM.insertObject(&o);

@@ -14,13 +14,6 @@ namespace {
 
 class BodySetters : public PhysicsWorld {};
 
-class Breeze : public Field {
- public:
-  Vector accelerationAt(Vector d, Vector /*v*/, double /*time*/) const override {
-    return Vector(0.004, -0.001) + Vector(-0.01 * d.x(), 0);
-  }
-};
-
 // A scene of at most two dynamic bodies.
 struct Scene {
   bool turning = false;
@@ -148,7 +141,7 @@ Body* otherThan(const Scene& s, const Body& body) {
     if (Object* p_o = obstacleOf(s)) __VA_ARGS__; \
   }
 
-const Breeze kBreeze;
+const FieldOf kBreeze([](Vector d, Vector) { return Vector(0.004, -0.001) + Vector(-0.01 * d.x(), 0); });
 
 const std::vector<Setter>& setters() {
   static const std::vector<Setter> kAll = {

@@ -78,14 +78,16 @@ TEST(Integrator, FieldGetsTheWorldsTime) {
   }
 }
 
+constexpr IntegratorMethod kMethods[] = {IntegratorMethod::kAutomatic, IntegratorMethod::kExtrapolation,
+                                         IntegratorMethod::kRadau};
+
 // A body enters a zone with another gravity, anywhere within the tick, in a world that has run for years.
 TEST(Integrator, HandlesAJumpOfTheForce) {
   struct Zone : ForceField {
     double border = 0;
     Vec2 acceleration(Vec2 p, Vec2, double) const override { return p.x < border ? Vec2{} : Vec2{0, 10}; }
   } field;
-  for (const IntegratorMethod method :
-       {IntegratorMethod::kAutomatic, IntegratorMethod::kExtrapolation, IntegratorMethod::kRadau}) {
+  for (const IntegratorMethod method : kMethods) {
     const IntegratorOptions options = {.method = method};
     IntegratorCounters counters;
     for (int i = 0; i < 500; ++i) {
@@ -107,8 +109,7 @@ TEST(Integrator, NonFiniteForcesFailAndSingularitiesStop) {
   struct Blow : ForceField {  // its motion reaches infinity within the tick
     Vec2 acceleration(Vec2, Vec2 v, double) const override { return v * length(v) * 2; }
   } blow;
-  for (const IntegratorMethod method :
-       {IntegratorMethod::kAutomatic, IntegratorMethod::kExtrapolation, IntegratorMethod::kRadau}) {
+  for (const IntegratorMethod method : kMethods) {
     const IntegratorOptions options = {.method = method};
     IntegratorCounters counters;
     Flown flown;
