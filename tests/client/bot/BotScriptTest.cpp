@@ -105,21 +105,6 @@ TEST(BotScript, ErrorsNameLineAndColumn) {
   }
 }
 
-TEST(BotScript, RandomTextNeverHangs) {
-  std::mt19937 random(5);
-  const std::string parts[] = {"press ", "A ", "repeat ", "3 ",    "{ ",    "} ",
-                               "; ",     "\n", "# ",      "wait ", "chat ", "x"};
-  for (int i = 0; i < 20000; ++i) {
-    std::string text;
-    for (unsigned k = 0; k < random() % 12; ++k) text += parts[random() % std::size(parts)];
-    auto result = BotScript::parse(text);
-    if (auto* script = std::get_if<BotScript>(&result)) {
-      ScriptPlayer player(std::move(*script));
-      for (int tick = 0; tick < 20; ++tick) player.tick();
-    }
-  }
-}
-
 TEST(RandomPlayer, SameSeedGivesEqualActionCountsWithinTheView) {
   RandomPlayer a(42, 80, 24);
   RandomPlayer b(42, 80, 24);

@@ -31,15 +31,6 @@ TEST_F(Update, ObjectStopsAtTheNumberLimit) {
   EXPECT_EQ(logged("the next position"), 1);
 }
 
-TEST_F(Update, StaleDeletionMarkDoesNotHitASuccessor) {
-  Probe* a = make("a", 10, 10);
-  WM.markForDelete(a);
-  delete a;
-  make("b", 10, 10);
-  WM.update();
-  EXPECT_EQ(world.store().countInWorld(), 1);
-}
-
 TEST_F(Update, NestedUpdateDoesNothing) {
   Probe* a = make("a", 10, 10, Vector(1, 0));
   make("wall", 11, 10)->setSolidness(SOFT);

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "DirectSender.h"
-#include "SimulatedWorld.h"
 #include "host/snapshot/AppearanceIds.h"
 #include "host/snapshot/SnapshotBuilder.h"
 #include "host/snapshot/SnapshotSender.h"
+#include "shared/values/SplitMix64.h"
 #include "tests/support/CellsAt.h"
 
 namespace naiad {
@@ -69,25 +69,6 @@ TEST(SnapshotSender, AcknowledgementsOfWhatWasNeverSentAreIgnored) {
   EXPECT_EQ(direct.sender.resentCount(), 0u);
   direct.acknowledge(sent);
   EXPECT_TRUE(direct.sender.isSettled());
-}
-
-TEST(SnapshotSender, AnyAcknowledgementsAreHarmless) {
-  SplitMix64 rng(8);
-  for (int run = 0; run < 50; ++run) {
-    test::PublishedWorld world({}, static_cast<std::uint64_t>(run));
-    SnapshotSender sender;
-    for (int i = 0; i < 60; ++i) {
-      world.tick();
-      sender.applyTick(world.publisher, world.player());
-      for (const auto& packet : sender.build(world.publisher)) {
-        ASSERT_LE(packet.bytes.size(), packet.large ? kMaxSnapshot : kMaxDatagramSnapshot);
-      }
-      for (auto n = rng.below(4); n > 0; --n) {
-        sender.acknowledge(
-            {static_cast<std::uint32_t>(rng.below(5) == 0 ? rng.next() : rng.below(120)), rng.next()});
-      }
-    }
-  }
 }
 
 TEST(SnapshotSender, SendsNoMoreThanAskedAndTheRestLater) {
