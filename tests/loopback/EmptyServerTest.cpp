@@ -4,7 +4,6 @@
 #include "BusyWorld.h"
 #include "Compare.h"
 #include "engine/world/WorldExtras.h"
-#include "host/world/WorldInProcess.h"
 
 namespace naiad::test {
 namespace {
@@ -12,20 +11,6 @@ namespace {
 /// Ticks before the first player joins: between half the range of 16 bits and all of it, here 22 minutes at
 /// 30 Hz.
 constexpr std::uint32_t kEmptyTicks = 40'000;
-
-TEST(EmptyServer, TicksWithoutPlayersAreCounted) {
-  df::World world;
-  const df::World::Scope scope(world);
-  WorldInProcess port(world);
-  EXPECT_EQ(port.nextTick(), 1u);
-  SentTurn turn;
-  for (int i = 0; i < 5; ++i) port.tick(turn);
-  EXPECT_EQ(port.nextTick(), 6u);
-  turn.turn.watched = true;
-  port.tick(turn);
-  EXPECT_EQ(port.view().tick, 6u);
-  EXPECT_EQ(port.nextTick(), 7u);
-}
 
 TEST(EmptyServer, PlayerJoiningAfterHalfAnHourSeesCurrentTicks) {
   TestServer server([](df::World& world) {

@@ -55,15 +55,6 @@ TEST_F(HostHealthTest, LongTicksHangAfterTenTickLengths) {
   EXPECT_FALSE(pulse.health(kStart + 10'001ms).is_good);
 }
 
-TEST_F(HostHealthTest, IsNotReadyWhileFull) {
-  pulse.begin(33ms, kStart);
-  pulse.setFull(true);
-  EXPECT_TRUE(pulse.health(kStart).is_good);
-  EXPECT_EQ(pulse.readiness(kStart).sentence, "full");
-  pulse.setFull(false);
-  EXPECT_TRUE(pulse.readiness(kStart).is_good);
-}
-
 TEST_F(HostHealthTest, DrainingIsNotReadyAndHangsOnlyWhileTicking) {
   pulse.begin(33ms, kStart);
   pulse.beginDrain(true);

@@ -101,10 +101,6 @@ TEST_F(SentChecksumsTest, ComparesWithTheNewestThatArrived) {
   EXPECT_EQ(sums.matches({7, ~std::uint64_t{0}}, 70), kUnknown) << "not sent";
 }
 
-TEST_F(SentChecksumsTest, KnowsNothingWhileASnapshotIsUnsettled) {
-  EXPECT_EQ(sums.matches(allBut(3), 60), kUnknown);
-}
-
 TEST_F(SentChecksumsTest, ALostEmptySnapshotIsNotMissed) {
   sums.recordLost(snapshot(3, true), false, 6);
   EXPECT_EQ(sums.matches(allBut(3), 60), true);
