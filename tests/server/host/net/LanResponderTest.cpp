@@ -115,24 +115,18 @@ TEST_P(LanResponderTest, SeveralServersOfAMachineAreAllFound) {
   EXPECT_TRUE(hearAll({11, 12}));
 }
 
-TEST_P(LanResponderTest, QueryAfterAFloodOfGarbageIsAnswered) {
-  const auto responder = respond(21);
-  ASSERT_TRUE(hearAll({21}));
-  for (int i = 0; i < 2000; ++i) ask(i % 2 == 0 ? "nlan" : std::string(512, 'x'));
-  EXPECT_TRUE(hearAll({21}));
-  responder->stop();
-  EXPECT_GT(responder->counters().malformed, 0u);
-  EXPECT_GE(responder->counters().answered, 2u);
-}
-
-TEST_P(LanResponderTest, QueryFloodIsAnsweredAtTheLimitedRate) {
+TEST_P(LanResponderTest, FloodsAreAnsweredAtTheLimitedRateAndOthersStill) {
   const auto begin = std::chrono::steady_clock::now();
   const auto responder = respond(31);
+  ASSERT_TRUE(hearAll({31}));
+  for (int i = 0; i < 2000; ++i) ask(i % 2 == 0 ? "nlan" : std::string(512, 'x'));
   ASSERT_TRUE(hearAll({31}));
   for (int i = 0; i < 2000; ++i) ask();
   ASSERT_TRUE(hearAll({31}));
   responder->stop();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  EXPECT_GT(responder->counters().malformed, 0u);
+  EXPECT_GE(responder->counters().answered, 3u);
   // Other tests on this machine may query at this time, from its other addresses.
   EXPECT_LE(static_cast<double>(responder->counters().answered),
             LanQueryFilter::kTotalRate.burst + LanQueryFilter::kTotalRate.per_second * took.count());
