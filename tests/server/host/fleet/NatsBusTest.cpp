@@ -99,30 +99,16 @@ TEST(BusSettings, InvalidAddressesAreRejected) {
 
 #ifdef NAIAD_NATS
 
-/// Reads and floods the bus, and manages its streams.
-class Listener {
+/// Floods the bus, and manages its streams.
+class Member {
  public:
-  explicit Listener(const std::string& url, const char* p_subject = "naiad.presence.>") {
+  explicit Member(const std::string& url) {
     if (natsConnection_ConnectTo(&m_p_connection, url.c_str()) != NATS_OK) return;
-    natsConnection_SubscribeSync(&m_p_subscription, m_p_connection, p_subject);
-    natsConnection_Flush(m_p_connection);
     natsConnection_JetStream(&m_p_stream, m_p_connection, nullptr);
   }
-  ~Listener() {
+  ~Member() {
     jsCtx_Destroy(m_p_stream);
-    natsSubscription_Destroy(m_p_subscription);
     natsConnection_Destroy(m_p_connection);
-  }
-  bool isConnected() const { return m_p_connection != nullptr; }
-  /// Returns the next message as "SUBJECT PAYLOAD"; "" after a minute.
-  std::string next() const {
-    natsMsg* p_message = nullptr;
-    if (natsSubscription_NextMsg(&p_message, m_p_subscription, 60'000) != NATS_OK) return "";
-    const std::string text =
-        std::string(natsMsg_GetSubject(p_message)) + " " +
-        std::string(natsMsg_GetData(p_message), static_cast<std::size_t>(natsMsg_GetDataLength(p_message)));
-    natsMsg_Destroy(p_message);
-    return text;
   }
   /// Sends messages as fast as possible, and waits until the bus has them.
   void flood(const std::string& subject, int count, std::size_t bytes) const {
@@ -155,7 +141,6 @@ class Listener {
 
  private:
   natsConnection* m_p_connection = nullptr;
-  natsSubscription* m_p_subscription = nullptr;
   jsCtx* m_p_stream = nullptr;
 };
 
@@ -172,8 +157,8 @@ class NatsBusTest : public testing::Test {
 };
 
 TEST_F(NatsBusTest, DuplicateResultsAreStoredOnce) {
-  const Listener listener(server.url());
-  ASSERT_TRUE(listener.makeResults());
+  const Member member(server.url());
+  ASSERT_TRUE(member.makeResults());
   for (int times = 0; times < 2; ++times) {
     const auto bus = connect(server.url());
     ASSERT_TRUE(test::waitUntil([&] { return bus->isConnected(); }));
@@ -183,7 +168,7 @@ TEST_F(NatsBusTest, DuplicateResultsAreStoredOnce) {
     EXPECT_EQ(bus->popLogMessage(), "the bus is connected");
     EXPECT_EQ(bus->popLogMessage(), "");
   }
-  EXPECT_EQ(listener.results(), 3u);
+  EXPECT_EQ(member.results(), 3u);
 }
 
 TEST_F(NatsBusTest, BusOutageQueuesMessagesUpToALimit) {
@@ -192,9 +177,9 @@ TEST_F(NatsBusTest, BusOutageQueuesMessagesUpToALimit) {
   bus->publish(kept(0));
   EXPECT_TRUE(test::waitUntil([&] { return bus->counters().failures > 0; })) << "there is no stream yet";
   {
-    const Listener listener(server.url());
-    ASSERT_TRUE(listener.makeResults());
-    EXPECT_TRUE(listener.waitForResults(1));
+    const Member member(server.url());
+    ASSERT_TRUE(member.makeResults());
+    EXPECT_TRUE(member.waitForResults(1));
   }
   EXPECT_TRUE(test::waitUntil([&] { return bus->counters().published == 1; }));
   server.kill();
@@ -208,7 +193,7 @@ TEST_F(NatsBusTest, BusOutageQueuesMessagesUpToALimit) {
   ASSERT_TRUE(server.start()) << server.log();
   EXPECT_TRUE(test::waitUntil([&] { return bus->counters().published == 1 + Bus::kMaxReliable; }));
   EXPECT_EQ(bus->counters().connections, 2u);
-  EXPECT_EQ(Listener(server.url()).results(), 1 + Bus::kMaxReliable);
+  EXPECT_EQ(Member(server.url()).results(), 1 + Bus::kMaxReliable);
 }
 
 TEST_F(NatsBusTest, SubscriptionFiltersMessagesAndSurvivesABusRestart) {
@@ -237,7 +222,7 @@ TEST_F(NatsBusTest, SubscriptionFiltersMessagesAndSurvivesABusRestart) {
 
 /// Returns the number of messages that were sent until the first was received: a client may be connected a
 /// moment before its subscription is active.
-std::uint64_t floodUntilReceived(const Listener& members, const Bus& bus) {
+std::uint64_t floodUntilReceived(const Member& members, const Bus& bus) {
   std::uint64_t sent = 0;
   EXPECT_TRUE(test::waitUntil([&] {
     members.flood("naiad.presence.first", 1, 1);
@@ -260,7 +245,7 @@ TEST_F(NatsBusTest, FloodCostsOnlyItsSendersMessages) {
     bool is_too_long;
   };
   const auto ear = listen();
-  const Listener members(server.url(), "none");
+  const Member members(server.url());
   floodUntilReceived(members, *ear);
   members.flood("naiad.presence.begin", 1, 1);
   ASSERT_TRUE(receives(*ear, "naiad.presence.begin"));
@@ -280,7 +265,7 @@ TEST_F(NatsBusTest, FloodCostsOnlyItsSendersMessages) {
 
 TEST_F(NatsBusTest, SilentBusIsDisconnectedBeforeServersExpire) {
   const auto ear = listen();
-  const Listener members(server.url(), "none");
+  const Member members(server.url());
   floodUntilReceived(members, *ear);
   for (int times = 0; times < 2; ++times) {
     const auto begin = std::chrono::steady_clock::now();
@@ -298,7 +283,7 @@ TEST_F(NatsBusTest, SilentBusIsDisconnectedBeforeServersExpire) {
 
 TEST_F(NatsBusTest, LostMessagesAreCounted) {
   const auto ear = connectBus({server.url(), "", "", {"naiad.presence.*"}}, 1);
-  const Listener members(server.url(), "none");
+  const Member members(server.url());
   std::uint64_t sent = floodUntilReceived(members, *ear);
   std::string logged = ear->popLogMessage();  // the warning, if messages were lost so soon
   const std::uint64_t uncertain = sent;       // before the bus knew the subscription
@@ -317,19 +302,9 @@ TEST_F(NatsBusTest, LostMessagesAreCounted) {
   EXPECT_TRUE(ear->isConnected());
 }
 
-TEST_F(NatsBusTest, ServerMayPublishOnlyItsOwnPresence) {
-  test::NatsServer guarded(
-      "authorization { users = [\n"
-      "  {user: a, password: x, permissions: {publish: [\"naiad.presence.a\"]}}\n"
-      "  {user: all, password: y}\n"
-      "] }");
+TEST_F(NatsBusTest, RefusedPasswordIsNotLogged) {
+  test::NatsServer guarded("authorization {user: a, password: x}");
   ASSERT_TRUE(guarded.start()) << guarded.log();
-  const Listener listener(guarded.url("all:y"));
-  ASSERT_TRUE(listener.isConnected());
-  const auto bus = connect(guarded.url("a:x"));
-  bus->publish({"naiad.presence.b", "a lie"});
-  bus->publish({"naiad.presence.a", "here"});
-  EXPECT_EQ(listener.next(), "naiad.presence.a here") << "nats-server refused the other";
   const auto stranger = connect(guarded.url("a:wrong"));
   EXPECT_TRUE(test::waitUntil([&] { return stranger->counters().failures > 0; }));
   const std::string news = stranger->popLogMessage();
