@@ -4,7 +4,6 @@
 
 #include <asio/ip/udp.hpp>
 #include <cstdio>
-#include <memory>
 #include <vector>
 
 #include "Compare.h"

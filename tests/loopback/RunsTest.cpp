@@ -4,7 +4,6 @@
 #include <sys/wait.h>
 
 #include <memory>
-#include <string>
 
 #include "ProgramFixture.h"
 

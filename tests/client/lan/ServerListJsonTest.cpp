@@ -4,7 +4,6 @@
 #include "client/lan/DiscoveredServers.h"
 #include "client/lan/ListDownload.h"
 #include "shared/json/Json.h"
-#include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/values/SplitMix64.h"
 

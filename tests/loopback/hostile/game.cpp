@@ -6,7 +6,6 @@
 #include <linux/fsverity.h>
 #include <linux/sched.h>
 #include <sched.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>

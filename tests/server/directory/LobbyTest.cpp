@@ -2,7 +2,6 @@
 // The lobby's answers to hellos and to other frames.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <stdlib.h>
 
 #include <asio/io_context.hpp>
 #include <chrono>

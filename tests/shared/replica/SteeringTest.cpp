@@ -6,7 +6,6 @@ namespace naiad {
 namespace {
 
 using df::ControlEffect;
-using df::ControlRow;
 using df::ControlTable;
 using df::FixedVector;
 using df::fromCells;

@@ -14,7 +14,6 @@ namespace naiad::test {
 namespace {
 
 using namespace std::chrono_literals;
-using namespace std::string_literals;
 using Time = VirtualClock::Time;
 
 struct StreamBench {

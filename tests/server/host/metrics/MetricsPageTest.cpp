@@ -14,7 +14,6 @@
 #include "host/metrics/Exposition.h"
 #include "host/metrics/MetricsPage.h"
 #include "host/ops/HostMetrics.h"
-#include "host/session/CounterTable.h"
 #include "tests/support/net/HttpClient.h"
 
 namespace naiad {

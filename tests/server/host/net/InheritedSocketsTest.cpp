@@ -256,7 +256,6 @@ TEST_F(ServerPortTest, RequestedPortIsUsedOrReportedInUse) {
 }
 
 TEST_F(ServerPortTest, PortFreeForStreamsOnlyIsRefused) {
-  using asio::ip::udp;
   const udp::socket taken(context, udp::endpoint(asio::ip::address_v4::loopback(), 0));
   EXPECT_EQ(failure("127.0.0.1", taken.local_endpoint().port()), std::errc::address_in_use);
 }
@@ -271,7 +270,6 @@ TEST_F(ServerPortTest, WithoutEncryptionThereAreNoDatagrams) {
 TEST_F(ServerPortTest, WildcardAddressListensOnBothFamilies) {
   const ServerPort all = open("::");
   EXPECT_EQ(all.datagrams->port(), all.streams->port());
-  using asio::ip::udp;
   udp::socket socket(context, udp::endpoint(asio::ip::address_v4::loopback(), 0));
   socket.send_to(asio::buffer("garbage", 7), {asio::ip::address_v4::loopback(), all.datagrams->port()});
   EXPECT_TRUE(test::waitUntil([&] {

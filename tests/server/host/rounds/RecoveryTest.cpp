@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -18,7 +17,6 @@
 namespace naiad {
 namespace {
 
-namespace fs = std::filesystem;
 using WorldInput = df::InputQueue::Input;
 
 WorldInput joinOf(std::uint32_t player) {

@@ -22,8 +22,6 @@
 #include "host/rounds/RoundJournals.h"
 #include "host/scores/ScoreStore.h"
 #include "host/settings/HostOptions.h"
-#include "shared/net/base/SafeFile.h"
-#include "shared/net/stream/TlsContext.h"
 #include "tests/server/host/admin/Talk.h"
 #include "tests/support/TempFolder.h"
 #include "tests/support/Text.h"

@@ -121,8 +121,6 @@ TEST_F(DeploymentTest, CheckCreatesNothing) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2) << "hello.so and file";
 }
 
-namespace fs = std::filesystem;
-
 class DefaultFoldersTest : public testing::Test {
  protected:
   HostOptions parse(std::vector<std::string> arguments) const {

@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "DirectSender.h"
 #include "host/snapshot/PerClientState.h"

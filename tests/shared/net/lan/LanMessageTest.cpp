@@ -3,7 +3,6 @@
 #include "../../../support/HostileTexts.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/net/lan/LanMessage.h"
-#include "shared/values/Canvas.h"
 #include "shared/values/SplitMix64.h"
 
 namespace naiad {
