@@ -16,17 +16,6 @@
 
 namespace naiad::test {
 
-namespace {
-
-std::vector<char*> pointersTo(std::vector<std::string>& words) {
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
-}  // namespace
-
 GameProgram::GameProgram(const std::string& name, std::map<std::string, std::string> environment,
                          const std::vector<std::string>& arguments, int errors) {
   std::filesystem::create_directory(playFolder());

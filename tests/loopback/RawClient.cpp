@@ -88,14 +88,6 @@ void RawClient::sendFrame(const std::string& payload) {
   sendBytes(bytes);
 }
 
-wire::ClientMessage RawClient::hello(const std::string& name) {
-  wire::ClientMessage message;
-  message.mutable_hello()->set_magic(kHelloMagic);
-  message.mutable_hello()->set_protocol(kProtocolVersion);
-  message.mutable_hello()->set_player_name(name);
-  return message;
-}
-
 std::optional<std::string> RawClient::readExactly(std::size_t count) {
   std::string bytes(count, '\0');
   for (std::size_t have = 0; have < count;) {

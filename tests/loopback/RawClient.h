@@ -8,6 +8,7 @@
 #include <string>
 
 #include "naiad.pb.h"
+#include "shared/net/base/Limits.h"
 #include "shared/net/stream/SocketBio.h"
 
 struct ssl_st;
@@ -29,7 +30,13 @@ class RawClient {
   void sendFrame(const std::string& payload);
   void send(const wire::ClientMessage& message) { sendFrame(message.SerializeAsString()); }
   /// Returns a hello that the server accepts.
-  static wire::ClientMessage hello(const std::string& name);
+  static wire::ClientMessage hello(const std::string& name) {
+    wire::ClientMessage message;
+    message.mutable_hello()->set_magic(kHelloMagic);
+    message.mutable_hello()->set_protocol(kProtocolVersion);
+    message.mutable_hello()->set_player_name(name);
+    return message;
+  }
 
   /// Returns the server's next message; nullopt if the server closed the connection, or after 30 s.
   std::optional<wire::ServerMessage> receive();

@@ -114,9 +114,7 @@ TEST_F(Trouble, SighupWithoutATerminalOpensTheLogAgain) {
 // ---- a game that hangs ------------------------------------------------------------------------------------
 
 TEST_F(Trouble, HungGameIsReportedAndFirstSignalEndsIt) {
-#if defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "this sanitizer keeps signals from a thread that only computes";
-#endif
+  if (kThreadSanitized) GTEST_SKIP() << "this sanitizer keeps signals from a thread that only computes";
   start();
   auto ann = join("ann");
   press(*ann, df::Keyboard::H);
@@ -131,9 +129,7 @@ TEST_F(Trouble, HungGameIsReportedAndFirstSignalEndsIt) {
 }
 
 TEST_F(Trouble, SecondSignalEndsHungGameAtOnceWithGoodbye) {
-#if defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "this sanitizer keeps signals from a thread that only computes";
-#endif
+  if (kThreadSanitized) GTEST_SKIP() << "this sanitizer keeps signals from a thread that only computes";
   start();
   auto ann = join("ann");
   ASSERT_TRUE(waitForTicks(*ann, 1));

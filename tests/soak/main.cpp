@@ -26,8 +26,6 @@ namespace naiad::soak {
 
 namespace {
 
-using namespace std::chrono_literals;
-
 constexpr std::uint64_t kTicksPerSecond = 30;
 constexpr std::uint64_t kSeed = 1;
 constexpr int kCreatures = 200;
@@ -188,17 +186,19 @@ bool Soak::isQuiet(Bot& bot) const {
          m_judge.rightInARow(bot.player()) >= kRightInTheEnd;
 }
 
+unsigned long long number(std::uint64_t value) {
+  return value;
+}
+
 void Soak::report() const {
-  const unsigned long long divergences = m_host.counters().divergences + m_tally.wrong_checksums;
   std::fprintf(
       stderr,
       "%3.0f min: players=%zu snapshots=%llu compared=%llu wrong_cells=%llu divergences=%llu stuck=%llu "
       "resumed=%llu lost_sessions=%llu bytes_in_use=%.0f\n",
-      static_cast<double>(m_clock.now().count()) / 60e6, m_host.playing(),
-      static_cast<unsigned long long>(m_tally.snapshots), static_cast<unsigned long long>(m_tally.compared),
-      static_cast<unsigned long long>(m_tally.wrong_cells), divergences,
-      static_cast<unsigned long long>(m_tally.stuck), static_cast<unsigned long long>(m_tally.resumed),
-      static_cast<unsigned long long>(m_tally.lost_sessions),
+      static_cast<double>(m_clock.now().count()) / 60e6, m_host.playing(), number(m_tally.snapshots),
+      number(m_tally.compared), number(m_tally.wrong_cells),
+      number(m_host.counters().divergences + m_tally.wrong_checksums), number(m_tally.stuck),
+      number(m_tally.resumed), number(m_tally.lost_sessions),
       static_cast<double>(mallinfo2().uordblks) - static_cast<double>(m_judge.bytesKept()));
 }
 
@@ -209,7 +209,6 @@ bool Soak::conclude() {
     blocked += bot->weather().blockades();
     outages += bot->weather().outages();
   }
-  const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
   const std::uint64_t divergences = m_host.counters().divergences + m_tally.wrong_checksums;
   std::printf("soak bots=%d minutes=%g snapshots=%llu compared=%llu compared_cells=%llu wrong_cells=%llu ",
               m_options.bots, m_options.minutes, number(m_tally.snapshots), number(m_tally.compared),

@@ -7,8 +7,17 @@
 #include <cstdio>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace naiad::test {
+
+/// Returns the words as execv() takes them. They must outlive the result.
+inline std::vector<char*> pointersTo(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
 
 /// Runs a shell command. Returns its exit code and standard output.
 inline std::pair<int, std::string> runProgram(const std::string& line) {

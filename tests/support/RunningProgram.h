@@ -3,7 +3,6 @@
 
 #include <poll.h>
 #include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -11,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/RunProgram.h"
 #include "tests/support/Text.h"
 
 namespace naiad::test {
@@ -24,9 +24,7 @@ class RunningProgram {
     if (!words.front().starts_with('/')) words.front() = NAIAD_BINARY_DIR "/" + words.front();
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe");
-    std::vector<char*> pointers;
-    for (std::string& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
+    const std::vector<char*> pointers = pointersTo(words);
     m_child = fork();
     if (m_child == 0) {
       dup2(ends[1], STDOUT_FILENO);

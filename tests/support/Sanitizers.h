@@ -10,6 +10,13 @@ inline constexpr bool kSanitized = true;
 inline constexpr bool kSanitized = false;
 #endif
 
+/// True with the sanitizer that tracks threads.
+#if defined(__SANITIZE_THREAD__)
+inline constexpr bool kThreadSanitized = true;
+#else
+inline constexpr bool kThreadSanitized = false;
+#endif
+
 /// Factor for time limits of tests, 1 in the release build. The protocol's own timeouts are equal in all
 /// builds.
 inline constexpr int kSlowness = kSanitized ? 10 : 1;

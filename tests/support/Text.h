@@ -8,6 +8,7 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace naiad::test {
 
@@ -39,6 +40,17 @@ std::string errorOf(Action action) {
     return error.what();
   }
   return "";
+}
+
+/// Returns the code of the Error that `action` throws; no code if it throws none.
+template <class Error, class Action>
+std::error_code codeOf(Action action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.code();
+  }
+  return {};
 }
 
 }  // namespace naiad::test

@@ -12,30 +12,18 @@ using namespace std::chrono_literals;
 
 class EpochReplicasTest : public testing::Test {
  protected:
-  /// Feeds snapshot `number`, in which the object with that id is born.
-  void birth(std::uint32_t number, bool complete, std::uint8_t epoch = 0) {
-    take(number, complete, epoch, true);
+  /// Feeds snapshot `number`. If `born`, the object with that id is born in it.
+  void birth(std::uint32_t number, bool complete, std::uint8_t epoch = 0, bool born = true) {
+    const EpochReplicas::Result became = of(epoch, number, complete, born);
+    EXPECT_TRUE(became == EpochReplicas::Result::kApplied || became == EpochReplicas::Result::kShown);
   }
   /// Feeds a snapshot without records, which a server sends to find out whether datagrams pass.
-  void probe(std::uint32_t number, bool complete) { take(number, complete, 0, false); }
+  void probe(std::uint32_t number, bool complete) { birth(number, complete, 0, false); }
   std::size_t shown() const { return feed.shown().aliveCount(); }
   bool hasPicture() const { return feed.hasPicture(now); }
 
   /// Feeds a snapshot of another epoch and returns the result.
-  EpochReplicas::Result of(std::uint8_t epoch, std::uint32_t number, bool complete) {
-    return taken(number, complete, epoch, true);
-  }
-
-  std::uint32_t tick = 100;
-  EpochReplicas feed;
-  EpochReplicas::Time now = EpochReplicas::Time{} + 1h;
-
- private:
-  void take(std::uint32_t number, bool complete, std::uint8_t epoch, bool born) {
-    const EpochReplicas::Result became = taken(number, complete, epoch, born);
-    EXPECT_TRUE(became == EpochReplicas::Result::kApplied || became == EpochReplicas::Result::kShown);
-  }
-  EpochReplicas::Result taken(std::uint32_t number, bool complete, std::uint8_t epoch, bool born) {
+  EpochReplicas::Result of(std::uint8_t epoch, std::uint32_t number, bool complete, bool born = true) {
     SnapshotHeader header;
     header.number = number;
     header.tick = tick;
@@ -48,6 +36,10 @@ class EpochReplicasTest : public testing::Test {
     if (born) records.objects = {object};
     return feed.applySnapshot(test::writeSnapshot(header, records), now, header, nullptr);
   }
+
+  std::uint32_t tick = 100;
+  EpochReplicas feed;
+  EpochReplicas::Time now = EpochReplicas::Time{} + 1h;
 };
 
 // The expected world is farther behind than the 16 bits of a snapshot's tick can express.

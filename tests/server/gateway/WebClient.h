@@ -17,8 +17,7 @@
 #include <string_view>
 #include <vector>
 
-#include "naiad.pb.h"
-#include "shared/net/base/Limits.h"
+#include "tests/loopback/RawClient.h"
 
 namespace naiad::test {
 
@@ -186,16 +185,9 @@ class WebClient {
   /// Sends a hello and waits for the welcome.
   bool join(const std::string& name) {
     if (!play()) return false;
-    sendMessage(hello(name));
+    sendMessage(RawClient::hello(name));
     const auto answer = message();
     return answer && answer->has_welcome();
-  }
-  static wire::ClientMessage hello(const std::string& name) {
-    wire::ClientMessage message;
-    message.mutable_hello()->set_magic(kHelloMagic);
-    message.mutable_hello()->set_protocol(kProtocolVersion);
-    message.mutable_hello()->set_player_name(name);
-    return message;
   }
 
   /// Reads until the other end closes the connection. Returns false if it has not after 30 s.
@@ -220,9 +212,7 @@ class WebClient {
     m_unread.append(bytes.data(), static_cast<std::size_t>(got));
     return static_cast<std::size_t>(got);
   }
-  /// Returns the bytes that were read but not used yet.
-  std::string& unread() { return m_unread; }
-  /// Removes and returns the first frame of unread(); nullopt if it is incomplete.
+  /// Removes and returns the first of the frames that were read; nullopt if it is incomplete.
   std::optional<WebFrame> takeFrame() {
     if (m_unread.size() < 2) return std::nullopt;
     std::size_t size = byteOf(m_unread, 1);

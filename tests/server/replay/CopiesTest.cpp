@@ -35,15 +35,11 @@ bool isAlive(pid_t process) {
 class CopiesTest : public FrailRound {
  protected:
   void SetUp() override {
-#if defined(__SANITIZE_THREAD__)
-    GTEST_SKIP() << "its runtime has a thread";
-#endif
+    if (kThreadSanitized) GTEST_SKIP() << "its runtime has a thread";
     FrailRound::SetUp();
   }
   /// Returns this process's descendants of this name, by process id, which is their starting order.
-  static std::vector<pid_t> find(const std::string& name) {
-    return test::processesBelow(getpid(), name);
-  }
+  static std::vector<pid_t> find(const std::string& name) { return test::processesBelow(getpid(), name); }
   /// Plays, and then waits until new copies have their name and sleep, which takes time on a busy machine.
   void play(int ticks) {
     FrailRound::play(ticks);
@@ -78,9 +74,7 @@ class CopiesTest : public FrailRound {
     }
     return all;
   }
-  bool logs(const std::string& text) const {
-    return log.find(text) != std::string::npos;
-  }
+  bool logs(const std::string& text) const { return log.find(text) != std::string::npos; }
   std::size_t count(const std::string& text) const {
     return static_cast<std::size_t>(test::countIn(log, text));
   }

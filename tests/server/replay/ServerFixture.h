@@ -19,6 +19,7 @@
 
 #include "host/journal/DfrReader.h"
 #include "tests/server/host/admin/Talk.h"
+#include "tests/support/RunProgram.h"
 #include "tests/support/TempFolder.h"
 #include "tests/support/Text.h"
 #include "tests/support/WaitUntil.h"
@@ -38,10 +39,7 @@ class ServerFixture : public testing::Test {
     setenv("HOME", folder.path().c_str(), 1);
     for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
     if (words.front().front() != '/') words.front() = NAIAD_BINARY_DIR "/" + words.front();
-    std::vector<char*> pointers;
-    for (std::string& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    execv(pointers[0], pointers.data());
+    execv(words.front().c_str(), pointersTo(words).data());
     _exit(127);
   }
   /// Ends a process with a signal, and sets `process` to 0.

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "shared/admin/AdminRequest.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -15,12 +16,7 @@ Arguments argumentsOf(const Words& words) {
 }
 
 std::string complaintAbout(const Words& words) {
-  try {
-    readAdminRequest(words);
-  } catch (const AdminUsageError& error) {
-    return error.what();
-  }
-  return "";
+  return test::errorOf<AdminUsageError>([&words] { readAdminRequest(words); });
 }
 
 TEST(AdminCommands, HaveUniqueNamesAndParsableArguments) {

@@ -19,6 +19,7 @@
 
 #include "host/world/DescriptorMessage.h"
 #include "host/world/WorldCheckpoints.h"
+#include "tests/support/Sanitizers.h"
 
 namespace naiad {
 namespace {
@@ -26,9 +27,7 @@ namespace {
 class WorldCheckpointsTest : public testing::Test {
  protected:
   void SetUp() override {
-#if defined(__SANITIZE_THREAD__)
-    GTEST_SKIP() << "its runtime gives what is forked a thread";
-#endif
+    if (test::kThreadSanitized) GTEST_SKIP() << "its runtime gives what is forked a thread";
     int ends[2];
     ASSERT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends), 0);
     world = ends[1];

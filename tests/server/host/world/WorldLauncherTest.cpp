@@ -9,7 +9,6 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <optional>
 #include <string>
 #include <thread>
@@ -19,6 +18,7 @@
 #include "host/world/WorldLauncher.h"
 #include "host/world/WorldStart.h"
 #include "tests/support/Processes.h"
+#include "tests/support/Sanitizers.h"
 
 namespace naiad {
 namespace {
@@ -130,9 +130,7 @@ TEST(WorldLauncher, ClosingTheSupervisorSocketEndsTheWorld) {
 }
 
 TEST(WorldLauncher, KilledLauncherIsReplacedAndItsWorldsGoOn) {
-#if defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "its runtime gives what is forked a thread";
-#endif
+  if (test::kThreadSanitized) GTEST_SKIP() << "its runtime gives what is forked a thread";
   const WorldLauncher launcher(shell("read word <&3; exit 7"));
   const StartedWorld before = launcher.start();
   EXPECT_GT(waitForStart(before), 1);
@@ -175,9 +173,7 @@ TEST(WorldLauncher, EndlesslyForkingGameIsEnded) {
 }
 
 TEST(WorldLauncher, GameHoppingBetweenProcessesIsEnded) {
-#if defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "this sanitizer takes processes that share memory for threads";
-#endif
+  if (test::kThreadSanitized) GTEST_SKIP() << "this sanitizer takes processes that share memory for threads";
   WorldProgram program{"/proc/self/exe", {"game"}, {std::string(kHops) + "=1"}, "/", {}};
   for (const char* kept : {"LD_LIBRARY_PATH", "ASAN_OPTIONS", "TSAN_OPTIONS"}) {
     if (const char* p_value = std::getenv(kept))

@@ -16,6 +16,7 @@
 #include "shared/net/stream/TcpListener.h"
 #include "tests/shared/net/Loopback.h"
 #include "tests/support/TempFolder.h"
+#include "tests/support/Text.h"
 
 namespace naiad::test {
 namespace {
@@ -61,12 +62,7 @@ class ProxyListenerTest : public testing::Test {
   }
   const ProxyListener::Counters& counters() const { return m_listener->counters(); }
   std::error_code failure() {
-    try {
-      listen();
-    } catch (const ListenError& error) {
-      return error.code();
-    }
-    return {};
+    return codeOf<ListenError>([this] { listen(); });
   }
 
   asio::io_context m_context;
