@@ -14,7 +14,7 @@ constexpr std::uint32_t kFiveSeconds = 150;
 
 using Company = LoopbackFixture;
 
-TEST_F(Company, StalledClientDisturbsNobodyAndCatchesUpWhenItReads) {
+TEST_F(Company, StalledClientDelaysNoneAndCatchesUp) {
   TestServer server(busyWorld(300));
   asio::io_context asleep;  // mud is stalled while the test does not poll this context
   TestClient ann(context, server.port(), "ann");

@@ -127,6 +127,7 @@ TEST_F(ClientControlsTest, PastedTextGoesIntoAnOpenChatLineOnly) {
   EXPECT_TRUE(controls.insertPasted(U"y\x202Ez ü"));
   EXPECT_EQ(controls.chatText(), "xyz ü");
   controls.insertPasted(std::u32string(1000, U'n'));
+  controls.handleKey(typed(X, U'x'));
   EXPECT_EQ(df::decodeUtf8(controls.chatText()).size(), kMaxChatLength);
   EXPECT_TRUE(controls.isChatOpen()) << "it sends nothing";
 }
@@ -190,12 +191,6 @@ TEST_F(ClientControlsTest, EmptyOrCancelledChatSendsNothing) {
   command(C, U'c');
   controls.handleKey(typed(X, U'x'));
   EXPECT_EQ(controls.handleKey({ESCAPE}), Result::kClosed);
-}
-
-TEST_F(ClientControlsTest, ChatIsBounded) {
-  command(T, U't');
-  for (int i = 0; i < 1000; ++i) controls.handleKey(typed(X, U'x'));
-  EXPECT_EQ(controls.chatText().size(), kMaxChatLength);
 }
 
 TEST_F(ClientControlsTest, KeysScrollTheChatWhileItsLineIsOpen) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <set>
-#include <vector>
 
 #include "shared/replica/Acks.h"
 #include "shared/values/SplitMix64.h"
@@ -15,16 +14,6 @@ TEST(Acks, KnowNothingAtFirst) {
   EXPECT_FALSE(acks.has(0));
   EXPECT_FALSE(acks.has(1));
   EXPECT_FALSE(acks.has(0xFFFFFFFF));
-}
-
-TEST(Acks, MaskBitsCountBackFromTheNewestIgnoringDuplicates) {
-  for (const auto& [received, newest, mask] :
-       {std::tuple{std::vector{1u, 2u, 5u, 4u}, 5u, 0b1101u}, {{1, 3, 3, 1}, 3, 0b10}}) {
-    AckWindow acks;
-    for (const std::uint32_t number : received) acks.addReceived(number);
-    EXPECT_EQ(acks.newest, newest);
-    EXPECT_EQ(acks.mask, mask);
-  }
 }
 
 TEST(Acks, MatchASetOfTheLast65Numbers) {

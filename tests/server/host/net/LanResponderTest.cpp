@@ -115,7 +115,7 @@ TEST_P(LanResponderTest, SeveralServersOfAMachineAreAllFound) {
   EXPECT_TRUE(hearAll({11, 12}));
 }
 
-TEST_P(LanResponderTest, FloodsAreAnsweredAtTheLimitedRateAndOthersStill) {
+TEST_P(LanResponderTest, FloodsAreAnsweredAtALimitedRate) {
   const auto begin = std::chrono::steady_clock::now();
   const auto responder = respond(31);
   ASSERT_TRUE(hearAll({31}));

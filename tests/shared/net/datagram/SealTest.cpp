@@ -164,7 +164,7 @@ TEST(Seal, EveryPacketOpensOnceInAnyOrder) {
   EXPECT_EQ(ends.opener.failures(), 0u);
 }
 
-TEST(Seal, EveryFlippedBitIsRefusedAndHarmsNothing) {
+TEST(Seal, EveryFlippedBitAndOtherSizeIsRefused) {
   for (const AeadId aead : kBothAeads) {
     Ends ends(aead);
     const std::string packet = sealWith(ends.sealer, "a payload of some length");
@@ -174,19 +174,11 @@ TEST(Seal, EveryFlippedBitIsRefusedAndHarmsNothing) {
       ASSERT_EQ(openWith(ends.opener, changed), OpenResult::kForged) << "bit " << bit;
     }
     EXPECT_EQ(ends.opener.failures(), 8 * packet.size());
-    EXPECT_EQ(ERR_peek_error(), 0u);  // otherwise TLS on this thread would take the error for its own
-    EXPECT_EQ(openWith(ends.opener, packet), OpenResult::kOpened);
-  }
-}
-
-TEST(Seal, ShortenedAndLengthenedPacketsAreRefused) {
-  for (const AeadId aead : kBothAeads) {
-    Ends ends(aead);
-    const std::string packet = sealWith(ends.sealer, "a payload of some length");
     for (std::size_t size = kHeader + kSealTagSize; size < packet.size(); ++size)
       ASSERT_EQ(openWith(ends.opener, packet.substr(0, size)), OpenResult::kForged) << size;
     for (std::size_t more = 1; more < 40; ++more)
       ASSERT_EQ(openWith(ends.opener, packet + std::string(more, '\0')), OpenResult::kForged) << more;
+    EXPECT_EQ(ERR_peek_error(), 0u);  // otherwise TLS on this thread would take the error for its own
     EXPECT_EQ(openWith(ends.opener, packet), OpenResult::kOpened);
   }
 }

@@ -24,6 +24,8 @@ const HttpRequest kRequest{.target = "/list", .host = "naiad.test"};
 struct HttpExchangeTest : testing::Test {
   void run(StreamTarget target, std::chrono::milliseconds timeout = seconds(20),
            HttpExchange::BodyHandler on_body = nullptr) {
+    ended.reset();
+    exchange = std::make_shared<HttpExchange>(context, HttpLimits{.head = 1000, .body = 100});
     exchange->run(
         target, kRequest, timeout, [this](const HttpExchange::Result& result) { ended.emplace(result); },
         std::move(on_body));
@@ -78,8 +80,7 @@ struct HttpExchangeTest : testing::Test {
 
   asio::io_context context;
   tcp::acceptor acceptor{context, tcp::endpoint(asio::ip::address_v4::loopback(), 0)};
-  std::shared_ptr<HttpExchange> exchange =
-      std::make_shared<HttpExchange>(context, HttpLimits{.head = 1000, .body = 100});
+  std::shared_ptr<HttpExchange> exchange;  ///< the newest
   std::shared_ptr<const TlsContext> server_context;
   std::unique_ptr<ByteStream> peer;
   std::string server_problem;
@@ -110,8 +111,6 @@ TEST_F(HttpExchangeTest, NonHttpAndOversizedAnswersAreRefused) {
   accept();
   answer("220 mail.example ESMTP\r\n\r\n");
   EXPECT_EQ(end(), End::kBadAnswer);
-  ended.reset();
-  exchange = std::make_shared<HttpExchange>(context, HttpLimits{.head = 1000, .body = 100});
   run(plain());
   respond("HTTP/1.1 200 OK\r\n\r\n" + std::string(101, 'x'));
   EXPECT_EQ(end(), End::kTooLong);
@@ -127,21 +126,16 @@ TEST_F(HttpExchangeTest, SilentServerTimesOut) {
   })) << "it is hung up on";
 }
 
-TEST_F(HttpExchangeTest, ClosedPortIsUnreachable) {
-  const StreamTarget target = plain();
+// Unencrypted requests stay on this machine.
+TEST_F(HttpExchangeTest, UnusableTargetsAreReportedByReason) {
+  const StreamTarget closed = plain();
   acceptor.close();
-  run(target);
-  EXPECT_EQ(end(), End::kUnreachable);
-}
-
-TEST_F(HttpExchangeTest, UnencryptedRequestsStayOnThisMachine) {
-  run({"192.0.2.1", 80});
-  EXPECT_EQ(end(), End::kOtherMachine);
-}
-
-TEST_F(HttpExchangeTest, UnknownHostIsNotFound) {
-  run({"nothing.invalid", 80});
-  EXPECT_EQ(end(), End::kNotFound);
+  for (const auto& [target, reason] : {std::pair(closed, End::kUnreachable),
+                                       {StreamTarget{"192.0.2.1", 80}, End::kOtherMachine},
+                                       {StreamTarget{"nothing.invalid", 80}, End::kNotFound}}) {
+    run(target);
+    EXPECT_EQ(end(), reason) << target.host;
+  }
 }
 
 TEST_F(HttpExchangeTest, SwitchedProtocolGetsTheStreamAndEarlyBytes) {
@@ -250,8 +244,6 @@ TEST_F(HttpsExchange, ServerWithAnInvalidCertificateGetsNoRequest) {
   const TestIdentity other = TestIdentity::make("other.test", &authority);
   for (const TestIdentity* const identity : {&stranger, &other}) {
     serve(*identity);
-    ended.reset();
-    exchange = std::make_shared<HttpExchange>(context);
     run(https());
     accept();
     EXPECT_EQ(end(), End::kUntrusted);

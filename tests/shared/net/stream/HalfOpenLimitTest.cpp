@@ -101,12 +101,6 @@ TEST_F(HalfOpenLimitTest, SimultaneousHellosOfOneNetworkLeaveFreeSlots) {
   expectRoomFor(40);
 }
 
-TEST_F(HalfOpenLimitTest, AClassOf64BehindOneAddressFits) {
-  EXPECT_EQ(flood({of("192.0.2.1")}, 64), 64);
-  EXPECT_FALSE(comeWithHello(of("192.0.2.1")));
-  EXPECT_TRUE(comeWithHello(of("192.0.2.2")));
-}
-
 TEST_F(HalfOpenLimitTest, IsCrowdedAboveHalfOfTheLimit) {
   for (int i = 0; i < 128; ++i) come(of("192.0." + std::to_string(i) + ".1"));
   EXPECT_FALSE(limit.isCrowded());

@@ -87,36 +87,28 @@ TEST(JoinLink, AcceptsPrintedAndEscapedLinks) {
 }
 
 TEST(JoinLink, EachFaultHasItsOwnMessage) {
-  const struct {
-    std::string text;
-    const char* part;
-  } bad[] = {{"naiad://game.example", "no key"},
-             {"naiad://game.example#", "no key"},
-             {"naiad://game.example#" + kKey.substr(1), "26 letters"},
-             {"naiad://game.example#" + kHex, "26 letters"},
-             {"naiad://game.example#" + kKey + "#", "26 letters"},
-             {"naiad://game.example#%", "26 letters"},
-             {"naiad:game.example#" + kKey, "naiad://"},
-             {"http://game.example#" + kKey, "naiad://"},
-             {"naiad://game.example?password=x#" + kKey, "?"},
-             {"naiad://ann@game.example#" + kKey, "user"},
-             {"naiad://ann%40game.example#" + kKey, "user"},
-             {"naiad://ga me#" + kKey, "space"},
-             {"naiad://g\xc3\xa4me#" + kKey, "ASCII"},
-             {"naiad://game\033[2J#" + kKey, "space"},
-             {"naiad://game%1b#" + kKey, "printable"},
-             {"naiad://game%00#" + kKey, "printable"},
-             {"naiad://game%2#" + kKey, "printable"},
-             {"naiad://game%-1#" + kKey, "printable"},
-             {"naiad://game/%zz#" + kKey, "printable"},
-             {"naiad://" + std::string(600, 'a') + "#" + kKey, "512"},
-             {"naiad://game.example/a/b#" + kKey, "room"},
-             {"naiad://game.example/../x#" + kKey, "room"},
-             {"naiad://game.example/.#" + kKey, "room"},
-             {"naiad://game.example/-x#" + kKey, "room"},
-             {"naiad://game.example/" + std::string(33, 'a') + "#" + kKey, "room"}};
-  for (const auto& b : bad)
-    EXPECT_NE(problem(b.text).find(b.part), std::string::npos) << b.text << ": " << problem(b.text);
+  using Texts = std::vector<std::string>;
+  const auto expectMessage = [](const char* part, const Texts& links) {
+    for (const std::string& link : links)
+      EXPECT_NE(problem(link).find(part), std::string::npos) << link << ": " << problem(link);
+  };
+  expectMessage("no key", {"naiad://game.example", "naiad://game.example#"});
+  expectMessage("26 letters", {"naiad://game.example#" + kKey.substr(1), "naiad://game.example#" + kHex,
+                               "naiad://game.example#" + kKey + "#", "naiad://game.example#%"});
+  expectMessage("naiad://", {"naiad:game.example#" + kKey, "http://game.example#" + kKey});
+  const std::pair<const char*, Texts> places[] = {
+      {"?", {"game.example?password=x"}},
+      {"user", {"ann@game.example", "ann%40game.example"}},
+      {"space", {"ga me", "game\033[2J"}},
+      {"ASCII", {"g\xc3\xa4me"}},
+      {"printable", {"game%1b", "game%00", "game%2", "game%-1", "game/%zz"}},
+      {"512", {std::string(600, 'a')}},
+      {"room",
+       {"game.example/a/b", "game.example/../x", "game.example/.", "game.example/-x",
+        "game.example/" + std::string(33, 'a')}}};
+  for (const auto& [part, texts] : places) {
+    for (const std::string& text : texts) expectMessage(part, {"naiad://" + text + "#" + kKey});
+  }
 }
 
 TEST(JoinLink, InvalidHostsAreRefused) {

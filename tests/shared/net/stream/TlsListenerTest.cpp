@@ -245,23 +245,18 @@ TEST_F(TlsListenerTest, ReceivedButUnreadHelloPreventsEviction) {
 }
 
 TEST_F(TlsListenerTest, SimultaneousHellosLeaveFreeSlots) {
-  tls.max_half_open = 16;
-  listen();
-  const auto flood = finishHellosTogether();
-  EXPECT_EQ(listener->halfOpen(), 8u);
-  EXPECT_EQ(counters().refused_from_prefix, 8u);
-  join();
-  expectConversation();
-}
-
-TEST_F(TlsListenerTest, SimultaneousHellosOfKnownPrefixesLeaveKnownSlots) {
-  tls.max_half_open_known = 16;
-  tls.is_known = [](const AddressPrefix&) { return true; };
-  listen();
-  const auto flood = finishHellosTogether();
-  EXPECT_EQ(counters().refused_from_prefix, 8u);
-  join();
-  expectConversation();
+  for (const bool is_known : {false, true}) {
+    (is_known ? tls.max_half_open_known : tls.max_half_open) = 16;
+    tls.is_known = [is_known](const AddressPrefix&) { return is_known; };
+    listen();
+    const auto flood = finishHellosTogether();
+    if (!is_known) {
+      EXPECT_EQ(listener->halfOpen(), 8u);
+    }
+    EXPECT_EQ(counters().refused_from_prefix, 8u) << is_known;
+    join();
+    expectConversation();
+  }
 }
 
 TEST_F(TlsListenerTest, SlotsAreReservedForKnownPrefixes) {
