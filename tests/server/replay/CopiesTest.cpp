@@ -35,7 +35,7 @@ bool isAlive(pid_t process) {
 class CopiesTest : public FrailRound {
  protected:
   void SetUp() override {
-    if (kThreadSanitized) GTEST_SKIP() << "its runtime has a thread";
+    if (test::kThreadSanitized) GTEST_SKIP() << "its runtime has a thread";
     FrailRound::SetUp();
   }
   /// Returns this process's descendants of this name, by process id, which is their starting order.
