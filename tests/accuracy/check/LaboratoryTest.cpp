@@ -220,6 +220,15 @@ TEST(Laboratory, SeparateProcessMeasuresTheSameErrors) {
   EXPECT_LE(apart.cpu.least, apart.cpu.median);
 }
 
+TEST(Laboratory, MethodThatIsNotTimedHasNoTimes) {
+  Method method = integrator(Rule::VERLET, Method::Kind::PEER);
+  method.is_timed = false;
+  const Measurement measurement = measureApart(casesOf("5")[0], method, 2, 1, 60);
+  EXPECT_TRUE(std::isnan(measurement.cpu.median));
+  EXPECT_LT(measurement.errors[0], 1);
+  EXPECT_EQ(measurement.reason, "");
+}
+
 TEST(Laboratory, SceneUnsupportedByTheMethodIsReported) {
   const std::vector<Case> cases = casesOf("8");
   EXPECT_FALSE(measureApart(cases[0], methodOf("rk4"), 1, 1, 10).expressed);

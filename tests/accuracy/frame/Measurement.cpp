@@ -143,7 +143,7 @@ std::unique_ptr<Results, decltype(&release)> sharedResults() {
   std::copy(measurement.errors.begin(), measurement.errors.end(), results.errors);
   results.judged = true;
   if (measurement.expressed) {
-    results.cpu = timeRuns(its_case, method, substeps, runs);
+    results.cpu = method.is_timed ? timeRuns(its_case, method, substeps, runs) : unknownTime();
     results.timed = true;
   }
   _exit(0);

@@ -23,7 +23,7 @@ struct CpuTime {
 struct Measurement {
   bool expressed = true;       ///< false: the method cannot express the scene, and the rest is unset
   std::vector<double> errors;  ///< one per metric; infinite where the run failed
-  CpuTime cpu;                 ///< NaN if it crashed
+  CpuTime cpu;                 ///< NaN if it crashed or was not timed
   std::string reason;          ///< reason of a failure, or empty
 };
 
@@ -31,8 +31,8 @@ struct Measurement {
 Measurement judge(const Case& its_case, const Method& method, int substeps);
 
 /// Computes the errors in one run, then times `runs` further runs of the case's scene without computing
-/// errors. All of this is done in its own process, so that a crash or more than `most_seconds` of CPU time is
-/// only a failed measurement.
+/// errors, unless the method is not timed. All of this is done in its own process, so that a crash or more
+/// than `most_seconds` of CPU time is only a failed measurement.
 Measurement measureApart(const Case& its_case, const Method& method, int substeps, int runs,
                          int most_seconds);
 

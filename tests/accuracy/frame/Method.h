@@ -29,6 +29,8 @@ struct Method {
   /// If positive, the method chooses its sub-steps itself and is judged only at this number; at a larger
   /// number it gets more, shorter ticks (ScenePace). If 0, it is measured at 1, 2, 4 … 64.
   int own_substeps = 0;
+  /// If false, only errors are measured.
+  bool is_timed = true;
 
   bool isProduct() const { return kind == Kind::PRODUCT || kind == Kind::FAST; }
   /// True if its errors at this number of sub-steps are compared with targets.
