@@ -19,6 +19,8 @@ STYLES = {
     "fast": ("#b0209a", "diamond", 3.4),
     "box2d": ("#d55e00", "square", 2.2),
     "chipmunk": ("#0072b2", "triangle", 2.2),
+    "box2d3": ("#d55e00", "diamond", 1.5),
+    "rapier": ("#cc3311", "down", 1.5),
     "xpbd": ("#009e73", "diamond", 2.2),
     "rigid": ("#444444", "triangle", 2.2),
     "tgs_ngs": ("#aa4499", "square", 2.2),
@@ -266,7 +268,7 @@ def legend(methods, labels):
         out.append(text(left + 38, at + 4.5, labels.get(method, method), 13, INK))
         at += 23
     for row, words in enumerate(("a point for 1, 2, 4 … steps", "a tick, usually upwards", "hollow: exactly 0, or failed",
-                                 "(also errors from 100 on)")):
+                                 "(also errors from 100 on)", "on the lower edge: not timed")):
         out.append(text(left, at + 12 + 15 * row, words, 11.5, MUTED))
     return out
 
