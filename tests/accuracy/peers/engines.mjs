@@ -47,8 +47,7 @@ async function box2d3() {
       const id = b2.b2CreateBody(this.world, definition);
       this.bodies.push(id);
       this.masses.push(motion === DYNAMIC ? mass : 0);
-      if (motion !== DYNAMIC) return;
-      b2.b2Body_SetMassData(id, Object.assign(new b2.b2MassData(), {mass, rotationalInertia: inertia}));
+      if (motion === DYNAMIC) b2.b2Body_SetMassData(id, Object.assign(new b2.b2MassData(), {mass, rotationalInertia: inertia}));
     }
     shape(x, y, friction, restitution, ...size) {
       const definition = b2.b2DefaultShapeDef();
