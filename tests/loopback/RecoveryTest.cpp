@@ -214,7 +214,7 @@ TEST_F(RoomRecovery, PlayersReturnToTheirRoomsWithTheirIds) {
   })) << game->log();
 }
 
-// At most two copies of a world wait, so three copies must be of both rooms.
+// A world has at most two copies, so if there are three, each room has at least one.
 TEST_F(RoomRecovery, CrashedRoomResumesFromACheckpointWithoutDisturbingOthers) {
   startJournaled();
   auto ann = join("ann", "one");

@@ -1,11 +1,11 @@
 // Watches that impulses add no kinetic energy to a group of bodies, except what drivers and springs give.
 //
-// Impulses known from the last sub-step, the push that undoes overlap, and restitution may all leave a group
-// with more energy than it had. If so, one factor reduces the velocities of its bodies. They are relative to
-// the motion of a rigid body with the group's momentum and angular momentum, or to the world if an immovable
-// body pushed the group. So contacts do not approach again, and the impulses that carry a pile remain. In a
-// group with joints, light bodies may gain what a heavy one loses. There, the factor reduces the velocity
-// changes of the stage. Groups do not influence each other: each is checked alone, in its own frame.
+// Impulses known from the last sub-step, the push that undoes overlap, and restitution may increase the
+// kinetic energy of a group. Then one factor scales the velocities of its bodies, relative to the motion of a
+// rigid body with the group's momentum and angular momentum, or relative to the world if an immovable body
+// pushed the group. So contacts do not approach again, and the impulses that carry a pile remain. In a group
+// with joints, light bodies may gain what a heavy one loses. There, the factor scales the velocity changes of
+// the stage. Groups do not influence each other: each is checked alone, in its own frame.
 #pragma once
 
 #include <cstdint>

@@ -54,8 +54,8 @@ class Trial {
     return run(scene, [](int, const Simulation&) {});
   }
 
-  /// Runs the whole scene. Returns the largest of each of the values that `read(tick, simulation)` returned,
-  /// at least 0.
+  /// Runs the whole scene, with read(tick, simulation) after each tick. Returns the maximum of each of its
+  /// values, or 0 if all are negative.
   template <class Read>
   std::vector<double> largest(const Scene& scene, Read read) const {
     std::vector<double> most;

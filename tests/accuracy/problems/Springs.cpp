@@ -86,8 +86,8 @@ SpringLine springOf(double stiffness, double zeta) {
   return system;
 }
 
-// Returns the distance of the mass from the rest length: from the coordinates if the method has them, else
-// from the body.
+// Returns the distance of the mass from its rest position. Uses the method's coordinates if it has any,
+// otherwise the body's position.
 std::vector<double> offsetOf(const Simulation& simulation) {
   const auto coordinates = simulation.coordinates();
   return {coordinates.empty() ? -simulation.body(0).position.y - kRest : coordinates[0]};

@@ -20,8 +20,8 @@ double widestHinge(const Scene& scene, const std::vector<BodyState>& states);
 /// Returns the largest stretch of a rod, relative to its length.
 double widestStretch(const Scene& scene, const std::vector<BodyState>& states);
 
-/// Returns the number of dynamic bodies whose positions are not finite or outside the scene's Room, plus
-/// those that the engine no longer moves.
+/// Returns the number of dynamic bodies whose positions are not finite or outside the scene's Room, plus the
+/// number of bodies that the engine has frozen.
 long countLost(const Scene& scene, const Simulation& simulation);
 
 }  // namespace lab

@@ -25,8 +25,8 @@ namespace {
 
 using State = Connection::State;
 
-/// A server with its own key that answers each hello with a refusal of the test's choice. Uses the event loop
-/// of the test.
+/// A server with its own key that answers each hello with a refusal that the test chooses. Runs in the test's
+/// event loop.
 class LyingServer {
  public:
   LyingServer(asio::io_context& context, const std::filesystem::path& identity,

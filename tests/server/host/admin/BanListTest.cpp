@@ -144,7 +144,7 @@ TEST_F(BanListTest, BansLastBeyondARestart) {
   EXPECT_EQ(p_ban->by, "user 0");
   EXPECT_EQ(p_ban->until, std::optional(now + 24h));
   EXPECT_NE(again.refusal(at("198.51.100.1"), "Bob"), "");
-  EXPECT_EQ(test::modeOf(file()) & 0077, 0u) << "addresses of players are for nobody else";
+  EXPECT_EQ(test::modeOf(file()) & 0077, 0u) << "other users may not read the addresses of players";
 }
 
 TEST_F(BanListTest, NewBanOfSameRangeReplacesTheOld) {

@@ -292,7 +292,7 @@ class LeftCopies : public testing::Test {
     close(world.copies);
   }
   std::string nextReport() const {
-    constexpr const char* kKinds[] = {", all have ended", ", copies are there", ", one goes on"};
+    constexpr const char* kKinds[] = {", all have ended", ", copies are there", ", resumed"};
     const auto end = waitForReport(world);
     if (!end) return "nothing";
     return (WIFEXITED(end->status) ? "exit " + std::to_string(WEXITSTATUS(end->status))
@@ -311,14 +311,14 @@ class LeftCopies : public testing::Test {
 
 TEST_F(LeftCopies, ChosenCheckpointResumesAndUnlistedOnesEnd) {
   order({SupervisorCommand::kResume, left[0], {left[1], 0, 0}});
-  EXPECT_EQ(nextReport(), "exit 7, one goes on");
+  EXPECT_EQ(nextReport(), "exit 7, resumed");
   EXPECT_EQ(kill(left[2], 0), -1);
   EXPECT_EQ(kill(left[0], 0), 0);
   EXPECT_EQ(kill(left[1], 0), 0);
   order({SupervisorCommand::kEndWorld, 0, {}});
   EXPECT_EQ(nextReport(), "signal 9, copies are there");
   order({SupervisorCommand::kResume, left[1], {}});
-  EXPECT_EQ(nextReport(), "signal 9, one goes on");
+  EXPECT_EQ(nextReport(), "signal 9, resumed");
   shutdown(world.supervisor, SHUT_WR);
   EXPECT_EQ(nextReport(), "signal 9, all have ended");
   EXPECT_EQ(kill(left[1], 0), -1);
