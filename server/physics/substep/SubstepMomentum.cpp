@@ -24,9 +24,10 @@ void SubstepWorld::keepMomentum() {
     return m_dt * b.body.acceleration - Vec2{s.vx, s.vy};
   };
   for (const std::int32_t id : m_active) {
-    const SubstepBody& b = m_bodies[at(id)];
+    SubstepBody& b = m_bodies[at(id)];
     Group& group = groupOf(b);
     if (group.is_held || !isMovable(b) || b.body.inverse_mass == 0) continue;
+    if (m_energy.isSlowed(b.state)) b.pushed_at = m_steps;  // it has momentum that others of its group lack
     const double mass = 1 / b.body.inverse_mass;
     group.missing += mass * changeOf(b);
     const SubstepState& s = m_states[at(b.state)];

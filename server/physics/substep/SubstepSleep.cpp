@@ -40,7 +40,7 @@ void SubstepWorld::findGroups() {
   };
   forEachHold([&](const SubstepBody& a, const SubstepBody& b) { unite(a, b); });
   // Momentum has moved between the bodies of a group from which energy was taken, though they may not push
-  // each other. Those that nothing pushed are not among them.
+  // each other at the end.
   for (const std::int32_t id : m_active) {
     const std::int32_t state = m_bodies[at(id)].state;
     if (m_energy.isSlowed(state)) m_sets.unite(state, m_energy.firstSlowedOf(state));

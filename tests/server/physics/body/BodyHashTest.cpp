@@ -49,7 +49,7 @@ class Noisy : public Body {
 };
 
 constexpr std::uint64_t kHash = 17396102000387394471u;
-constexpr std::uint64_t kFastHash = 3826384978300193473u;
+constexpr std::uint64_t kFastHash = 14824206731382166997u;
 
 std::uint64_t run(bool may_turn, int count, Accuracy accuracy = ACCURACY_DEFAULT) {
   OwnWorld own(2);
