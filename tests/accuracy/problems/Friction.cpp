@@ -40,14 +40,14 @@ Scene crateOnSlope(double angle, int ticks) {
 
 Case threshold() {
   constexpr int kTicks = 120;
-  constexpr double kStill = 1e-3;  // m/s; on a slope 0.0013° too steep, it is exceeded after 4 s
+  constexpr double kStill = 1e-5;  // m/s; on a slope 0.000013° too steep, it is exceeded after 4 s
   constexpr double kDegree = M_PI / 180;
   Case slope("", "", crateOnSlope(27 * kDegree, kTicks));
-  slope.metrics = {{"threshold_deg", "error of the angle from which it slides, degrees", 0.01, 1e-3}};
+  slope.metrics = {{"threshold_deg", "error of the angle from which it slides, degrees", 1e-4, 3e-5}};
   slope.judge = [](const Trial& trial) {
     double low = 20;
     double high = 33;
-    for (int i = 0; i < 14; ++i) {
+    for (int i = 0; i < 20; ++i) {
       const double angle = (low + high) / 2;
       const SimulationPtr end = trial.run(crateOnSlope(angle * kDegree, kTicks));
       (length(end->body(0).velocity) > kStill ? high : low) = angle;
@@ -60,7 +60,7 @@ Case threshold() {
 Case sliding() {
   constexpr double kAngle = 40 * M_PI / 180;
   Case slope("", "", crateOnSlope(kAngle, 60));
-  slope.metrics = {{"sliding", "relative error of the way down a slope of 40° in 2 s", 1e-3, 1e-15}};
+  slope.metrics = {{"sliding", "relative error of the way down a slope of 40° in 2 s", 1e-6, 1e-15}};
   const double t = slope.scene.duration();
   slope.judge = wayOf(slope.scene, kGravity * (std::sin(kAngle) - kFriction * std::cos(kAngle)) * t * t / 2);
   return slope;
@@ -72,7 +72,7 @@ Case stopping() {
   Body crate = box({}, kHalf);
   crate.velocity = {kSpeed, 0};
   floor.scene = onSlope(0, crate, kHalf.y, 90);
-  floor.metrics = {{"stop", "relative error of the way to rest from 10 m/s", 1e-3, 1e-15}};
+  floor.metrics = {{"stop", "relative error of the way to rest from 10 m/s", 1e-6, 1e-15}};
   floor.judge = atEnd(floor.scene, [](const Simulation& end) {
     const double right = kSpeed * kSpeed / (2 * kFriction * kGravity);
     return std::abs(end.body(0).position.x / right - 1);
@@ -91,7 +91,7 @@ std::vector<Case> makeRolling() {
   constexpr double kAngle = M_PI / 6;
   constexpr double kRadius = 0.5;
   Case slope("", "", onSlope(kAngle, ball({}, {}, kRadius), kRadius, 60));
-  slope.metrics = {{"way", "relative error of the way in 2 s", 1e-3, 1e-15}};
+  slope.metrics = {{"way", "relative error of the way in 2 s", 1e-6, 1e-15}};
   const double t = slope.scene.duration();
   slope.judge = wayOf(slope.scene, kGravity * std::sin(kAngle) * t * t / 3);
   return {slope};

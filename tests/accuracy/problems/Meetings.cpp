@@ -16,8 +16,8 @@ constexpr double kApproach = 3;  // m/s; a tenth of a cell per tick
 Case meeting(const std::string& name, Scene scene) {
   Case met(name, "", std::move(scene));
   met.most_substeps = 16;
-  met.metrics = {{"momentum", "largest change of the momentum, relative", 1e-9, 1e-16},
-                 {"energy_gain", "largest gain of energy, relative", 1e-9, 1e-16}};
+  met.metrics = {{"momentum", "largest change of the momentum, relative", 1e-12, 1e-16},
+                 {"energy_gain", "largest gain of energy, relative", 1e-12, 1e-16}};
   met.judge = [scene = met.scene](const Trial& trial) {
     const Whole start = motionOf(scene, *trial.build(scene));
     return trial.largest(scene, [&](int /*tick*/, const Simulation& simulation) {

@@ -38,8 +38,8 @@ Case pyramid() {
   standing.scene.ticks = kTicks;
   standing.most_substeps = 16;
   standing.draws_levels = true;
-  standing.metrics = {{"penetration_m", "deepest overlap of two crates at the end, m", 0.005, 1e-15},
-                      {"drift_m", "largest sideways distance after 10 s, m", 0.02, 1e-15}};
+  standing.metrics = {{"penetration_m", "deepest overlap of two crates at the end, m", 1e-6, 1e-15},
+                      {"drift_m", "largest sideways distance after 10 s, m", 1e-6, 1e-15}};
   standing.cpu_bounds = {{"cpu_ratio", "box2d", 4, 1.5}};
   standing.judge = [scene = standing.scene](const Trial& trial) {
     const int count = static_cast<int>(scene.bodies.size());
@@ -77,7 +77,7 @@ Case tumbler() {
   turning.most_substeps = 16;
   turning.draws_levels = true;
   turning.metrics = {
-      {"penetration_m", "deepest overlap of two boxes of 0.25 m from the second second on, m", 0.1, 1e-15},
+      {"penetration_m", "deepest overlap of two boxes of 0.25 m from the second second on, m", 0.086, 1e-15},
       {"mean_penetration_m", "the deepest overlap of each tick, on average, m", 0.027, 1e-15}};
   turning.cpu_bounds = {{"cpu_ratio", "box2d", 4, 1.5}};
   turning.judge = [scene = turning.scene](const Trial& trial) {
