@@ -56,7 +56,7 @@ struct alignas(64) SubstepBody {
   std::int32_t ring = -1;    ///< next body that fell asleep with it
   std::int32_t proxy = -1;   ///< index in the broad phase
   std::uint64_t order = 0;
-  std::int64_t pushed_at = -1;       ///< number of the step in which it was last pushed
+  std::int64_t pushed_at = -1;       ///< number of the step in which it was last pushed or slowed
   std::int32_t form = -1;            ///< number of its shapes in SubstepForms
   std::uint32_t turned_version = 0;  ///< `version` of the shapes from which `turned` was computed
   Rotation turned_at;                ///< rotation for which `turned` was computed

@@ -39,8 +39,7 @@ void SubstepWorld::findGroups() {
     });
   };
   forEachHold([&](const SubstepBody& a, const SubstepBody& b) { unite(a, b); });
-  // Momentum has moved between the bodies of a group from which energy was taken, though they may not push
-  // each other at the end.
+  // Momentum has moved between the bodies that were slowed, even if they do not push each other.
   for (const std::int32_t id : m_active) {
     const std::int32_t state = m_bodies[at(id)].state;
     if (m_energy.isSlowed(state)) m_sets.unite(state, m_energy.firstSlowedOf(state));

@@ -2,6 +2,8 @@
 // `substeps` are whole steps of tick / substeps with the engine's defaults. Only errors are compared, because
 // the times would be WebAssembly's. Without the packages, which deploy/lab fetches, these methods do not
 // exist.
+#include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -32,6 +34,7 @@ class EngineProcess {
     std::signal(SIGPIPE, SIG_IGN);  // a crash of the engine is a failed measurement
     std::array<int, 2> answers{};
     if (pipe(answers.data()) != 0) throw std::runtime_error("no pipe");
+    fcntl(answers[0], F_SETFD, FD_CLOEXEC);  // so that node cannot write after the end of this process
     const std::string command = "exec node '" NAIAD_LAB_ENGINES "' " + engine + " '" NAIAD_LAB_PEERS "' ";
     m_commands = popen((command + std::to_string(answers[1])).c_str(), "w");
     close(answers[1]);
@@ -53,10 +56,13 @@ class EngineProcess {
 
   int addWorld() { return ++m_worlds; }
   void write(const std::string& commands) { std::fputs(commands.c_str(), m_commands); }
-  // Waits for the answer. Throws Failure if the process has ended.
+  // Waits for the answer. Throws Failure if the process has ended or is silent for two minutes.
   void read(std::vector<double>& answer) {
+    constexpr int kPatienceMs = 120'000;
     std::fflush(m_commands);
-    if (std::fread(answer.data(), sizeof(double), answer.size(), m_answers) != answer.size())
+    pollfd answers{fileno(m_answers), POLLIN, 0};
+    if (poll(&answers, 1, kPatienceMs) == 0 ||
+        std::fread(answer.data(), sizeof(double), answer.size(), m_answers) != answer.size())
       throw Failure("crashed or took too long");
   }
 
@@ -73,6 +79,7 @@ class NodePeer : public Simulation {
         m_id(' ' + std::to_string(m_process.addWorld())),
         m_field(scene.field),
         m_origin(scene.origin),
+        m_counts_contacts(scene.counts_contacts),
         m_answer(1 + kNumbers * scene.bodies.size()) {
     write("scene", scene.gravity.x, scene.gravity.y, scene.may_sleep);
     for (const Body& body : scene.bodies) add(body, scene.collides);
@@ -97,7 +104,7 @@ class NodePeer : public Simulation {
     const double* state = &m_answer[1 + kNumbers * static_cast<std::size_t>(index)];
     return {Vec{state[0], state[1]} - m_origin, {state[2], state[3]}, state[4], state[5]};
   }
-  long contacts() const override { return static_cast<long>(m_answer[0]); }
+  long contacts() const override { return m_counts_contacts ? static_cast<long>(m_answer[0]) : 0; }
 
  private:
   template <class... Numbers>
@@ -139,6 +146,7 @@ class NodePeer : public Simulation {
   std::string m_id;  // with a blank before it
   Field m_field;
   Vec m_origin;
+  bool m_counts_contacts;
   double m_time = 0;
   std::vector<double> m_answer;  // the number of contacts, then the states
 };
@@ -155,12 +163,12 @@ void add(const std::string& name, const std::string& label, const std::string& p
     const bool is_possible = scene.rigid() && (has_rods || !hasRods(scene));
     return is_possible ? std::make_unique<NodePeer>(name, scene) : nullptr;
   };
-  RegisteredMethod({name, label, "npm-" + version, Method::Kind::PEER, build, 0, false});
+  RegisteredMethod({name, label, version, Method::Kind::PEER, build, 0, false});
 }
 
 const bool are_added = [] {
-  add("box2d3", "Box2D 3.2", "box2d3-wasm", "5.2.0", true);
-  add("rapier", "Rapier", "@dimforge/rapier2d-deterministic-compat", "0.20.0", false);
+  add("box2d3", "Box2D 3.2", "box2d3-wasm", "3.2-npm-5.2.0", true);
+  add("rapier", "Rapier", "@dimforge/rapier2d-deterministic-compat", "npm-0.20.0", false);
   return true;
 }();
 

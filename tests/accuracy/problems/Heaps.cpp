@@ -123,7 +123,7 @@ Case standing(int rows, double target, double fast_target) {
 // Pyramids of 20, 30 and 60 rows of boxes of 1 m that touch exactly at the start, friction 0.6, 10 s. What
 // rests may sleep. Correct: nothing moves: the top stays where it is, and after 5 s all of them sleep.
 std::vector<Case> makeStanding() {
-  return {standing(20, .033, .117), standing(30, .059, .26), standing(60, .059, 1)};
+  return {standing(20, .033, .117), standing(30, .059, .26), standing(60, .059, .5)};
 }
 
 Case hanging(const std::string& name, const std::string& label, const Scene& scene) {

@@ -141,7 +141,7 @@ class PulledBox : public BodyScenes {
     };
     const double start = energy();
     Swing swing;
-    for (int i = 0; i < 150; ++i) {
+    for (int i = 0; i < 300; ++i) {
       ticks(1);
       const double away = std::abs(p_box->getPosition().x());
       swing.farthest = std::max(swing.farthest, away);
@@ -193,7 +193,7 @@ TEST_F(BodyScenes, RodAndSpringGainNoEnergy) {
         return 0.5 * (v.x() * v.x() + v.y() * v.y()) + 0.5 * k * away * away - g * at.y();
       };
       const double start = energy();
-      for (int i = 0; i < 150; ++i) {
+      for (int i = 0; i < 300; ++i) {
         ticks(1);
         ASSERT_LE(energy() - start, 1e-6 * (start + 9 * g)) << to << ' ' << k << ' ' << i;
       }
@@ -226,7 +226,7 @@ TEST_F(BodyScenes, MagnetKeepsTheSpeedOfHeldBodies) {
       bodies[2]->setFriction(0);
       bodies[2]->setVelocity(Vector(0.1, 0));
       for (Body* p_body : bodies) p_body->setField(&magnet);
-      for (int i = 0; i < 150; ++i) {
+      for (int i = 0; i < 300; ++i) {
         ticks(1);
         for (const Body* p_body : bodies) {
           ASSERT_LE(p_body->getVelocity().getMagnitude(), 0.1 * (1 + 1e-6)) << i;
@@ -319,7 +319,7 @@ TEST_F(BodyScenes, StickAndSlipStaysBounded) {
     Body* p_box = turningCrate(Vector(0, -0.5));
     p_box->setSpring(Vector(0, -0.5), omega * omega);
     const double most = 0.05 * 301;  // it cannot move farther than the belt
-    for (int i = 0; i < 150; ++i) {
+    for (int i = 0; i < 300; ++i) {
       ticks(1);
       ASSERT_LE(std::abs(p_box->getPosition().x()), most) << omega << ' ' << i;
       ASSERT_LE(std::abs(p_box->getVelocity().x()), 1) << omega << ' ' << i;
