@@ -28,8 +28,7 @@ void SubstepEnergy::begin(std::size_t states) {
 void SubstepEnergy::set(std::int32_t state, const RigidBody& body, double mass, double inertia,
                         std::int32_t group) {
   Member& m = m_members[at(state)];
-  m.mass = mass, m.inertia = inertia;
-  m.group = group;
+  m.mass = mass, m.inertia = inertia, m.group = group;
   m_velocities[at(state)] = body.velocity;
   m_places[at(state)] = body.place;
   m_marks[at(group)] |= m_marks[at(state)];

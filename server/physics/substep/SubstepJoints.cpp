@@ -103,8 +103,10 @@ void SubstepJoints::findSystems(std::size_t bodies) {
     if (shape.moves_a && shape.moves_b) sets.unite(shape.a, shape.b);
   }
   std::vector<std::pair<int, int>> by_root;  // (root, link)
-  for (const Shape& s : m_shapes)
-    by_root.emplace_back(sets.rootOf(s.moves_b ? s.b : s.a), static_cast<int>(by_root.size()));
+  for (const Shape& s : m_shapes) {
+    const int link = static_cast<int>(by_root.size());  // alone if it has no moving body
+    by_root.emplace_back(s.moves_b ? sets.rootOf(s.b) : s.moves_a ? sets.rootOf(s.a) : -1 - link, link);
+  }
   std::sort(by_root.begin(), by_root.end());
   for (auto first = by_root.begin(); first != by_root.end();) {
     const auto last =

@@ -27,8 +27,7 @@ void SubstepWorld::keepMomentum() {
     SubstepBody& b = m_bodies[at(id)];
     Group& group = groupOf(b);
     if (group.is_held || !isMovable(b) || b.body.inverse_mass == 0) continue;
-    // Else only its flight would move it, and its group would lose momentum.
-    if (m_energy.isSlowed(b.state)) b.pushed_at = m_steps;
+    if (m_energy.isSlowed(b.state)) b.pushed_at = m_steps;  // else only its flight would move it
     const double mass = 1 / b.body.inverse_mass;
     group.missing += mass * changeOf(b);
     const SubstepState& s = m_states[at(b.state)];
