@@ -97,7 +97,7 @@ void SubstepEnergy::visitOver(std::span<const SubstepState> states, Visit visit)
 }
 
 // Finds the motions that the groups would have as rigid bodies, before and after the stage. Leaves out groups
-// with joints and groups whose momentum an immovable body changed.
+// with joints and groups that an immovable body pushed.
 void SubstepEnergy::findRigidMotions(std::span<const SubstepState> states, double time) {
   for (const std::int32_t root : m_roots) m_groups[at(root)].rigid = {};
   visitOver(states, [&](std::int32_t id, const Member& m, Group& group) {

@@ -4,7 +4,7 @@
 // kinetic energy of a group. Then one factor scales the velocities of its bodies, relative to the motion of a
 // rigid body with the group's momentum and angular momentum, or relative to the world if an immovable body
 // pushed the group. So contacts do not approach again, and the impulses that carry a pile remain. In a group
-// with joints, light bodies may gain what a heavy one loses. There, the factor scales the velocity changes of
+// with joints, energy may pass from a heavy body to light ones, so the factor scales the velocity changes of
 // the stage. Groups do not influence each other: each is checked alone, in its own frame.
 #pragma once
 

@@ -263,8 +263,8 @@ TEST(Laboratory, PeerEnginesStartFromTheSceneState) {
   }
 }
 
-// Free flight, drag, springs, friction and rolling: errors that only the engines' order of convergence
-// leaves.
+// The engines' errors of free flight, drag, a soft spring, friction and rolling are those of their
+// integrators.
 TEST(Laboratory, EnginesFromNpmMoveTheScenesRightly) {
   for (const char* name : {"box2d3", "rapier"}) {
     const std::vector<const Method*> methods = Method::all();
@@ -272,11 +272,11 @@ TEST(Laboratory, EnginesFromNpmMoveTheScenesRightly) {
     if (found == methods.end()) GTEST_SKIP() << "deploy/lab has not fetched " << name << " from npm";
     for (const char* id : {"1", "2", "3", "12", "13"}) {
       for (const Case& its_case : casesOf(id)) {
-        if (its_case.name == "5hz" || its_case.name == "15hz") continue;  // the springs are damped
+        if (its_case.name == "5hz" || its_case.name == "15hz") continue;  // the engines damp stiff springs
         const Measurement measured = judge(its_case, **found, 16);
-        const std::size_t last = id == std::string("3") ? 1 : 0;  // the phase, not the amplitude
+        const std::size_t which = id == std::string("3") ? 1 : 0;  // the phase, not the amplitude
         ASSERT_TRUE(measured.expressed && measured.reason.empty()) << name << ' ' << id << measured.reason;
-        EXPECT_LT(measured.errors[last], 0.005) << name << ' ' << id << ' ' << its_case.name;
+        EXPECT_LT(measured.errors[which], 0.005) << name << ' ' << id << ' ' << its_case.name;
       }
     }
   }
